@@ -1,0 +1,2 @@
+//! The command `snake`.
+fn main() {}
