@@ -1,1 +1,47 @@
-//! field
+//! From an image to a force field: what pulls a snake to an edge.
+//!
+//! ```text
+//!   image ── smooth ── differentiate ── length ── differentiate ──▶ ForceField ── at(p) ──▶ force
+//!    I         G ∗ I       ∇(G ∗ I)     P = |∇|     gain · ∇P
+//! ```
+//!
+//! Two recipes: [`report_force`] is the program of the report's Appendix A to the last bit, slips included;
+//! [`edge_force`] is the same idea with the slips put right. Both give a [`ForceField`], which is sampled between
+//! pixel centers, bilinear or by the report's rule. [`signal`] is the chapter's one-dimensional part, [`literal`]
+//! the slow twin that checks the fast code.
+//!
+//! Conventions: x to the right, y **down**, pixel centers at whole numbers, the first at (0, 0); grids are indexed
+//! `[[row, column]]`. Images are checked at the door: no empty ones, no pixel that is NaN or infinite. One pixel,
+//! one row or a constant is a fine image; it has no edge and so no force.
+//!
+//! This crate does no I/O and knows nothing of what will feel the force.
+//!
+//! ```
+//! use field::{EdgeForce, Grid, edge_force};
+//! use glam::DVec2;
+//!
+//! // dark left of x = 15.5, bright right of it
+//! let image = Grid::from_shape_fn((32, 32), |(_, x)| if x > 15 { 200.0 } else { 50.0 });
+//! let field = edge_force(&image, &EdgeForce::as_strong_as_the_report())?;
+//! assert!(field.at(DVec2::new(12.0, 16.0)).x > 0.0); // left of the edge: pulled right
+//! assert!(field.at(DVec2::new(19.0, 16.0)).x < 0.0); // right of the edge: pulled left
+//! # Ok::<(), field::FieldError>(())
+//! ```
+
+mod edge;
+mod error;
+mod force_field;
+mod gradient;
+mod grid;
+pub mod literal;
+mod report;
+pub mod signal;
+mod smooth;
+
+pub use edge::{EdgeForce, EdgeStages, edge_force, edge_stages, gradient_force};
+pub use error::{FieldError, OutsideField};
+pub use force_field::ForceField;
+pub use gradient::{Across, mask_x, mask_y};
+pub use grid::{Grid, LARGEST_PIXEL, LARGEST_SIGMA, MOST_PASSES};
+pub use report::{REPORT_GAIN, REPORT_SCALE, ReportStages, report_force, report_stages};
+pub use smooth::{REPORT_PASSES, Smoothing, binomial_x, binomial_y, gaussian_weights};

@@ -1,0 +1,171 @@
+//! A force at every pixel center, and what it is in between.
+
+use crate::error::{FieldError, OutsideField};
+use crate::grid::Grid;
+use glam::DVec2;
+use ndarray::{Array2, Zip};
+
+/// A force at every pixel center, whatever it was made from.
+///
+/// Pixel centers are at whole numbers, the first at (0, 0), x to the right and y down.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForceField {
+    forces: Array2<DVec2>,
+}
+
+impl ForceField {
+    /// A field from forces indexed `[[row, column]]`.
+    ///
+    /// # Errors
+    /// No forces at all, or one that is not finite.
+    pub fn new(forces: Array2<DVec2>) -> Result<Self, FieldError> {
+        let (height, width) = forces.dim();
+        if height == 0 || width == 0 {
+            return Err(FieldError::Empty { width, height });
+        }
+        for ((row, column), force) in forces.indexed_iter() {
+            if !force.is_finite() {
+                let value = if force.x.is_finite() {
+                    force.y
+                } else {
+                    force.x
+                };
+                return Err(FieldError::NotFinite { column, row, value });
+            }
+        }
+        Ok(Self {
+            forces: forces.as_standard_layout().into_owned(),
+        })
+    }
+
+    /// A field from its two components.
+    ///
+    /// # Errors
+    /// Grids of different shapes or without pixels, or a value that is not finite.
+    pub fn from_components(x: &Grid, y: &Grid) -> Result<Self, FieldError> {
+        if x.dim() != y.dim() {
+            return Err(FieldError::ShapesDiffer {
+                first: x.dim(),
+                second: y.dim(),
+            });
+        }
+        Self::new(Zip::from(x).and(y).map_collect(|&x, &y| DVec2::new(x, y)))
+    }
+
+    /// Columns.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.forces.ncols()
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.forces.nrows()
+    }
+
+    /// The force at a pixel center, or `None` outside the image.
+    #[must_use]
+    pub fn pixel(&self, column: usize, row: usize) -> Option<DVec2> {
+        self.forces.get([row, column]).copied()
+    }
+
+    /// The force at any point: bilinear between the four pixel centers around it.
+    ///
+    /// A position outside the image is moved to the nearest point of the rectangle of pixel centers first, so
+    /// this is continuous everywhere; a NaN coordinate gives a NaN force. Exact at pixel centers.
+    /// The corrected form of report §4.2.2 (D51, D54).
+    #[must_use]
+    pub fn at(&self, p: DVec2) -> DVec2 {
+        let (x0, x1, tx) = cell(p.x, self.width());
+        let (y0, y1, ty) = cell(p.y, self.height());
+        let f = &self.forces;
+        let above = f[[y0, x0]] * (1.0 - tx) + f[[y0, x1]] * tx;
+        let below = f[[y1, x0]] * (1.0 - tx) + f[[y1, x1]] * tx;
+        above * (1.0 - ty) + below * ty
+    }
+
+    /// The force at a point by the rule of the report's program.
+    ///
+    /// ```text
+    /// k = round(x), j = round(y)                       counting from 1, half away from zero
+    /// fx = Fx[j, k] + (x − k) (Fx[j, k+1] − Fx[j, k])
+    /// fy = Fy[j, k] + (y − j) (Fy[j+1, k] − Fy[j, k])
+    /// ```
+    ///
+    /// `p` counts from 0 as everywhere here; the 1 is added inside. Each component is interpolated along its own
+    /// axis only, from the nearest pixel with the slope towards the next: it jumps at every half (D51, D52, D53).
+    /// Row 0 reads as row 1, the program's only guard.
+    ///
+    /// # Errors
+    /// Where the program stops with an index error: left of −½, at and right of the last center less ½, at and
+    /// below the last row's center less ½, above −1½, and for NaN (D54, D56).
+    pub fn at_report(&self, p: DVec2) -> Result<DVec2, OutsideField> {
+        let outside = |axis| OutsideField { at: p, axis };
+        let (x, y) = (p.x + 1.0, p.y + 1.0);
+        let (column, row) = (x.round(), y.round());
+        let guarded = if row == 0.0 { 1.0 } else { row };
+        // the program reads forcex before forcey (D58)
+        let (k, next_k) = pair(column, self.width()).ok_or(outside('x'))?;
+        let j = single(guarded, self.height()).ok_or(outside('x'))?;
+        let (_, next_j) = pair(guarded, self.height()).ok_or(outside('y'))?;
+        let f = &self.forces;
+        let here = f[[j, k]];
+        let fx = (x - column) * (f[[j, next_k]].x - here.x) + here.x;
+        let fy = (y - guarded) * (f[[next_j, k]].y - here.y) + here.y;
+        Ok(DVec2::new(fx, fy))
+    }
+
+    /// Both components as grids.
+    #[must_use]
+    pub fn components(&self) -> (Grid, Grid) {
+        (self.forces.mapv(|f| f.x), self.forces.mapv(|f| f.y))
+    }
+
+    /// The length of the longest force.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.forces
+            .iter()
+            .map(|f| f.length_squared())
+            .fold(0.0, f64::max)
+            .sqrt()
+    }
+
+    /// The same field, every force times `factor`.
+    #[must_use]
+    pub fn scaled(mut self, factor: f64) -> Self {
+        self.forces.mapv_inplace(|f| f * factor);
+        self
+    }
+}
+
+/// The two neighbours of a coordinate clamped to `0 … n−1`, and how far it is towards the second.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to 0 … n−1 before"
+)]
+fn cell(x: f64, n: usize) -> (usize, usize, f64) {
+    let last = n - 1;
+    let x = x.clamp(0.0, last as f64);
+    // NaN stays NaN and is cell 0: the weight carries it into the force
+    let first = (x.floor() as usize).min(last.saturating_sub(1));
+    (first, (first + 1).min(last), x - first as f64)
+}
+
+/// The zero-based index of a whole number counted from 1, if it is one of `n`.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "compared with 1 and n before"
+)]
+fn single(one_based: f64, n: usize) -> Option<usize> {
+    (one_based >= 1.0 && one_based <= n as f64).then(|| one_based as usize - 1)
+}
+
+/// [`single`] and its successor, if both exist.
+fn pair(one_based: f64, n: usize) -> Option<(usize, usize)> {
+    let first = single(one_based, n)?;
+    (first + 1 < n).then_some((first, first + 1))
+}
