@@ -1,0 +1,80 @@
+//! What can be wrong with a curve or a material, each with what was given and what would do.
+
+use crate::Bound;
+use banded::BandedError;
+use glam::DVec2;
+
+/// What can be wrong with a curve or a material.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ElasticError {
+    /// Fewer nodes than the differences reach over.
+    #[error("a curve with these ends needs at least {needed} nodes, got {got}")]
+    TooFewNodes {
+        /// The least that would do.
+        needed: usize,
+        /// What was given.
+        got: usize,
+    },
+    /// Fewer points than a curve can be drawn through.
+    #[error("a curve needs at least {needed} points to go through, got {got}")]
+    TooFewPoints {
+        /// The least that would do.
+        needed: usize,
+        /// What was given.
+        got: usize,
+    },
+    /// A parameter of the curve is out of its range, or not a number.
+    #[error("{name} must be {bound}, got {value}{}", at_node(*.node))]
+    BadParameter {
+        /// Which parameter: `tension`, `mass`, …
+        name: &'static str,
+        /// At which node; none if the parameter is uniform.
+        node: Option<usize>,
+        /// What was given.
+        value: f64,
+        /// What would do.
+        bound: Bound,
+    },
+    /// A profile does not have one value a node.
+    #[error("{name} must have one value for each of the {needed} nodes, got {got}")]
+    WrongLength {
+        /// Which profile: `tension`, `mass`, …
+        name: &'static str,
+        /// The number of nodes.
+        needed: usize,
+        /// The number of values.
+        got: usize,
+    },
+    /// A spacing that nothing can be divided by.
+    #[error("the spacing must be finite and above 0, got {value}")]
+    BadSpacing {
+        /// What was given.
+        value: f64,
+    },
+    /// A coordinate is infinite or not a number.
+    #[error("{name} {index} must be finite, got ({}, {})", .value.x, .value.y)]
+    NotFinite {
+        /// What stands there: `node`, `point`.
+        name: &'static str,
+        /// Which one, from 0.
+        index: usize,
+        /// What was given.
+        value: DVec2,
+    },
+    /// All points are one and the same, so the curve has no length.
+    #[error("the {count} points all lie at ({}, {}), so the curve has no length; move one", .at.x, .at.y)]
+    NoLength {
+        /// How many points there are.
+        count: usize,
+        /// Where they are.
+        at: DVec2,
+    },
+    /// The stiffness matrix was refused.
+    #[error(transparent)]
+    Banded(#[from] BandedError),
+}
+
+fn at_node(node: Option<usize>) -> String {
+    node.map_or_else(String::new, |i| format!(" at node {i}"))
+}

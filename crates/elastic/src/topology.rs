@@ -1,0 +1,241 @@
+//! How a curve ends, or that it does not: which differences exist.
+//!
+//! This is the one place where open and closed curves part. Everything that needs to know which edges
+//! and bends a curve has asks [`Topology`] here; the energy and the matrix are sums over the answer.
+//!
+//! It cannot say yet that an end keeps its direction (a clamped angle).
+
+use crate::ElasticError;
+
+/// What holds an end of an open curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum End {
+    /// Nothing: the natural end, neither stretched nor bent beyond the last node.
+    Free,
+    /// Two virtual nodes beyond the end that stay at rest, `e = 0`: the report's program.
+    ///
+    /// Such an end is held towards its place even without a tether. The report never says so; it is what
+    /// its matrix, cut off at both ends, means (D3). The forces no longer sum to zero (D4).
+    Anchored,
+    /// A nail: the node may not move.
+    ///
+    /// For energy, force and matrix the same as [`Free`](Self::Free); whoever moves the nodes leaves
+    /// those of [`Topology::held`] where they are.
+    Pinned,
+}
+
+/// Closed, or open with two ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Topology {
+    /// The node after the last is the first.
+    Closed,
+    /// The curve begins at node 0, its head, and ends at the last, its tail.
+    Open {
+        /// What holds node 0.
+        head: End,
+        /// What holds the last node.
+        tail: End,
+    },
+}
+
+/// An edge from one node to the next. A node of `None` is virtual and at rest.
+pub(crate) struct Edge {
+    /// Which tension it takes.
+    pub(crate) weight: usize,
+    pub(crate) nodes: [Option<usize>; 2],
+}
+
+/// A bend over three nodes in a row. A node of `None` is virtual and at rest.
+pub(crate) struct Bend {
+    /// Which rigidity it takes.
+    pub(crate) weight: usize,
+    pub(crate) nodes: [Option<usize>; 3],
+}
+
+/// Positions along the curve are counted from this many virtual nodes before node 0.
+const BEFORE: usize = 2;
+
+impl Topology {
+    /// Open with the same end twice.
+    #[must_use]
+    pub const fn open(end: End) -> Self {
+        Self::Open {
+            head: end,
+            tail: end,
+        }
+    }
+
+    /// Whether the node after the last is the first.
+    #[must_use]
+    pub const fn is_closed(self) -> bool {
+        matches!(self, Self::Closed)
+    }
+
+    /// The least number of nodes the differences need: 5 closed, 3 open.
+    ///
+    /// Below 5 the two arms of a closed second difference squared would meet, and below 3 an open curve
+    /// has no bend; the report's program fills its matrix wrongly for 1 and 2 nodes (D65).
+    #[must_use]
+    pub const fn least_nodes(self) -> usize {
+        match self {
+            Self::Closed => 5,
+            Self::Open { .. } => 3,
+        }
+    }
+
+    /// Which of `n` nodes may not move: the pinned ends.
+    #[must_use]
+    pub fn held(self, n: usize) -> Vec<bool> {
+        let (head, tail) = match self {
+            Self::Closed => (false, false),
+            Self::Open { head, tail } => (head == End::Pinned, tail == End::Pinned),
+        };
+        (0..n)
+            .map(|i| (head && i == 0) || (tail && i + 1 == n))
+            .collect()
+    }
+
+    /// The same curve walked from the other side: head and tail change places.
+    #[must_use]
+    pub const fn reversed(self) -> Self {
+        match self {
+            Self::Closed => Self::Closed,
+            Self::Open { head, tail } => Self::Open {
+                head: tail,
+                tail: head,
+            },
+        }
+    }
+
+    /// Refuses fewer than [`least_nodes`](Self::least_nodes).
+    pub(crate) const fn check_count(self, n: usize) -> Result<(), ElasticError> {
+        if n < self.least_nodes() {
+            return Err(ElasticError::TooFewNodes {
+                needed: self.least_nodes(),
+                got: n,
+            });
+        }
+        Ok(())
+    }
+
+    /// Every edge that exists among `n` nodes, from head to tail.
+    pub(crate) fn edges(self, n: usize) -> impl Iterator<Item = Edge> {
+        let anchored = self.anchored();
+        let first = if anchored.0 { BEFORE - 1 } else { BEFORE };
+        let last = if anchored.1 || self.is_closed() {
+            BEFORE + n
+        } else {
+            BEFORE + n - 1
+        };
+        (first..last).map(move |k| Edge {
+            weight: self.weight(k, n),
+            nodes: [self.node(k, n), self.node(k + 1, n)],
+        })
+    }
+
+    /// Every bend that exists among `n` nodes, from head to tail.
+    pub(crate) fn bends(self, n: usize) -> impl Iterator<Item = Bend> {
+        let anchored = self.anchored();
+        let (first, last) = if self.is_closed() {
+            (BEFORE, BEFORE + n)
+        } else {
+            (
+                if anchored.0 { BEFORE - 1 } else { BEFORE + 1 },
+                if anchored.1 {
+                    BEFORE + n + 1
+                } else {
+                    BEFORE + n - 1
+                },
+            )
+        };
+        (first..last).map(move |k| Bend {
+            weight: self.weight(k, n),
+            nodes: [self.node(k - 1, n), self.node(k, n), self.node(k + 1, n)],
+        })
+    }
+
+    const fn anchored(self) -> (bool, bool) {
+        match self {
+            Self::Closed => (false, false),
+            Self::Open { head, tail } => {
+                (matches!(head, End::Anchored), matches!(tail, End::Anchored))
+            }
+        }
+    }
+
+    /// The node at position `k`, if it is a real one.
+    const fn node(self, k: usize, n: usize) -> Option<usize> {
+        if self.is_closed() {
+            return Some((k + n - BEFORE) % n);
+        }
+        if k < BEFORE || k >= BEFORE + n {
+            None
+        } else {
+            Some(k - BEFORE)
+        }
+    }
+
+    /// The index of the density at position `k`: beyond an end, that of the end.
+    fn weight(self, k: usize, n: usize) -> usize {
+        if self.is_closed() {
+            (k + n - BEFORE) % n
+        } else {
+            k.saturating_sub(BEFORE).min(n - 1)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_pinned_ends_are_held() {
+        let one = Topology::Open {
+            head: End::Pinned,
+            tail: End::Anchored,
+        };
+        assert_eq!(one.held(4), [true, false, false, false]);
+        assert_eq!(one.reversed().held(4), [false, false, false, true]);
+        assert_eq!(Topology::open(End::Free).held(3), [false; 3]);
+        assert_eq!(Topology::Closed.held(5), [false; 5]);
+    }
+
+    #[test]
+    fn a_closed_curve_has_as_many_edges_as_nodes_and_a_free_one_fewer() {
+        for (topology, edges, bends) in [
+            (Topology::Closed, 7, 7),
+            (Topology::open(End::Free), 6, 5),
+            (Topology::open(End::Pinned), 6, 5),
+            (Topology::open(End::Anchored), 8, 9),
+            (
+                Topology::Open {
+                    head: End::Anchored,
+                    tail: End::Free,
+                },
+                7,
+                7,
+            ),
+        ] {
+            assert_eq!(topology.edges(7).count(), edges, "{topology:?}");
+            assert_eq!(topology.bends(7).count(), bends, "{topology:?}");
+        }
+    }
+
+    #[test]
+    fn an_edge_beyond_an_anchored_end_takes_the_density_of_the_end() {
+        let edges: Vec<_> = Topology::open(End::Anchored)
+            .edges(3)
+            .map(|e| (e.weight, e.nodes))
+            .collect();
+        assert_eq!(
+            edges,
+            [
+                (0, [None, Some(0)]),
+                (0, [Some(0), Some(1)]),
+                (1, [Some(1), Some(2)]),
+                (2, [Some(2), None]),
+            ]
+        );
+    }
+}
