@@ -1,0 +1,287 @@
+//! A band and a few dense columns.
+//!
+//! What all nodes share (a body frame, a weight) couples every node with every other, but in few
+//! ways: it is a sum of a few outer products. Adding it to a band keeps product and solve O(n).
+
+use glam::DVec2;
+
+use crate::scalar::Node;
+use crate::{BandedError, Dense, Factor, Pentadiagonal};
+
+/// The largest number of columns in a correction.
+const MOST: usize = 4;
+
+/// `A = B + U S Uᵀ`: a band `B`, and up to four dense columns `U` weighted by a small symmetric `S`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Operator {
+    band: Pentadiagonal,
+    low_rank: Option<LowRank>,
+}
+
+/// `U S Uᵀ`.
+#[derive(Debug, Clone, PartialEq)]
+struct LowRank {
+    columns: Vec<Vec<f64>>,
+    /// Row by row.
+    middle: Vec<f64>,
+}
+
+impl From<Pentadiagonal> for Operator {
+    fn from(band: Pentadiagonal) -> Self {
+        Self {
+            band,
+            low_rank: None,
+        }
+    }
+}
+
+impl Operator {
+    /// A band with a correction: `columns` are those of `U`, `middle` is `S` row by row.
+    ///
+    /// # Errors
+    ///
+    /// Refuses more than four columns, columns of another length than the band, a `middle` that is
+    /// not square or not symmetric, and numbers that are not finite.
+    pub fn new(
+        band: Pentadiagonal,
+        columns: Vec<Vec<f64>>,
+        middle: Vec<f64>,
+    ) -> Result<Self, BandedError> {
+        let k = columns.len();
+        if k > MOST {
+            return Err(BandedError::TooManyColumns { most: MOST, got: k });
+        }
+        if middle.len() != k * k {
+            return Err(BandedError::Length {
+                name: "middle",
+                expected: k * k,
+                got: middle.len(),
+            });
+        }
+        for column in &columns {
+            if column.len() != band.len() {
+                let (expected, got) = (band.len(), column.len());
+                return Err(BandedError::Length {
+                    name: "column",
+                    expected,
+                    got,
+                });
+            }
+            if let Some(row) = column.iter().position(|u| !u.is_finite()) {
+                return Err(BandedError::NotFinite { row });
+            }
+        }
+        for row in 0..k {
+            for column in 0..k {
+                let (entry, mirror) = (middle[row * k + column], middle[column * k + row]);
+                if !entry.is_finite() {
+                    return Err(BandedError::NotFinite { row });
+                }
+                if entry.to_bits() != mirror.to_bits() {
+                    return Err(BandedError::NotSymmetric { row, column });
+                }
+            }
+        }
+        Ok(Self {
+            band,
+            low_rank: (k > 0).then_some(LowRank { columns, middle }),
+        })
+    }
+
+    /// The band `B`.
+    #[must_use]
+    pub fn band(&self) -> &Pentadiagonal {
+        &self.band
+    }
+
+    /// The columns of `U`: none for a plain band.
+    #[must_use]
+    pub fn columns(&self) -> &[Vec<f64>] {
+        self.low_rank.as_ref().map_or(&[], |low| &low.columns)
+    }
+
+    /// The number of rows.
+    #[must_use]
+    #[allow(clippy::len_without_is_empty, reason = "a matrix has at least 3 rows")]
+    pub fn len(&self) -> usize {
+        self.band.len()
+    }
+
+    /// `out = A x`, both coordinates. O(n), allocates nothing.
+    pub fn multiply_into(&self, x: &[DVec2], out: &mut [DVec2]) {
+        self.band.multiply_into(x, out);
+        if let Some(low) = &self.low_rank {
+            low.add_product(x, out);
+        }
+    }
+
+    /// `out = A x` for one number a row. O(n), allocates nothing.
+    pub fn multiply_scalars_into(&self, x: &[f64], out: &mut [f64]) {
+        self.band.multiply_scalars_into(x, out);
+        if let Some(low) = &self.low_rank {
+            low.add_product(x, out);
+        }
+    }
+
+    /// `diag(diagonal) + scale · A`: what an implicit step solves with.
+    #[must_use]
+    pub fn shifted(&self, scale: f64, diagonal: &[f64]) -> Self {
+        let mut shifted = self.clone();
+        shifted.band.scale(scale);
+        shifted.band.add_diagonal(diagonal);
+        if let Some(low) = &mut shifted.low_rank {
+            low.middle.iter_mut().for_each(|s| *s *= scale);
+        }
+        shifted
+    }
+
+    /// Factors the operator. O(n).
+    ///
+    /// The band is factored alone and corrected by Sherman, Morrison and Woodbury's formula, so it
+    /// must be positive definite itself; digits are lost where its condition is much worse than that
+    /// of the whole.
+    ///
+    /// # Errors
+    ///
+    /// Refuses what [`Factor::new`] refuses, and a correction that makes the whole singular.
+    pub fn factor(&self) -> Result<OperatorFactor, BandedError> {
+        let band = Factor::new(&self.band)?;
+        let correction = match &self.low_rank {
+            Some(low) => Some(Correction::new(&band, low)?),
+            None => None,
+        };
+        Ok(OperatorFactor { band, correction })
+    }
+
+    /// All n² entries.
+    #[must_use]
+    pub fn dense(&self) -> Dense {
+        let low = |i: usize, j: usize| self.low_rank.as_ref().map_or(0.0, |low| low.entry(i, j));
+        Dense::from_fn(self.len(), |i, j| self.band.entry(i, j) + low(i, j))
+    }
+}
+
+impl LowRank {
+    fn entry(&self, i: usize, j: usize) -> f64 {
+        let k = self.columns.len();
+        let mut sum = 0.0;
+        for p in 0..k {
+            for q in 0..k {
+                sum += self.columns[p][i] * self.middle[p * k + q] * self.columns[q][j];
+            }
+        }
+        sum
+    }
+
+    fn add_product<V: Node<f64>>(&self, x: &[V], out: &mut [V]) {
+        let along = weights(&self.columns, &self.middle, x);
+        for (column, along) in self.columns.iter().zip(along) {
+            for (out, &u) in out.iter_mut().zip(column) {
+                *out = *out + along * u;
+            }
+        }
+    }
+}
+
+/// `S Uᵀ x`, with `S` row by row.
+fn weights<V: Node<f64>>(columns: &[Vec<f64>], middle: &[f64], x: &[V]) -> [V; MOST] {
+    let k = columns.len();
+    let mut along = [V::default(); MOST];
+    for (along, column) in along.iter_mut().zip(columns) {
+        *along = x
+            .iter()
+            .zip(column)
+            .fold(V::default(), |sum, (&x, &u)| sum + x * u);
+    }
+    let mut weighted = [V::default(); MOST];
+    for p in 0..k {
+        for q in 0..k {
+            weighted[p] = weighted[p] + along[q] * middle[p * k + q];
+        }
+    }
+    weighted
+}
+
+/// The factor of an [`Operator`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct OperatorFactor {
+    band: Factor,
+    correction: Option<Correction>,
+}
+
+/// `A⁻¹ = B⁻¹ − Z H Zᵀ` with `Z = B⁻¹ U` and `H = (I + S Uᵀ Z)⁻¹ S`.
+#[derive(Debug, Clone, PartialEq)]
+struct Correction {
+    columns: Vec<Vec<f64>>,
+    solved: Vec<Vec<f64>>,
+    middle: Vec<f64>,
+}
+
+impl Correction {
+    fn new(band: &Factor, low: &LowRank) -> Result<Self, BandedError> {
+        let k = low.columns.len();
+        let mut solved = low.columns.clone();
+        for column in &mut solved {
+            band.solve_scalars(column);
+        }
+        let dot = |p: usize, q: usize| -> f64 {
+            low.columns[p]
+                .iter()
+                .zip(&solved[q])
+                .map(|(u, z)| u * z)
+                .sum()
+        };
+        let inner = Dense::from_fn(k, |i, j| {
+            let product: f64 = (0..k).map(|q| low.middle[i * k + q] * dot(q, j)).sum();
+            if i == j { 1.0 + product } else { product }
+        });
+        let mut middle = vec![0.0; k * k];
+        for j in 0..k {
+            let column: Vec<f64> = (0..k).map(|i| low.middle[i * k + j]).collect();
+            for (i, h) in inner.solve(&column)?.into_iter().enumerate() {
+                middle[i * k + j] = h;
+            }
+        }
+        Ok(Self {
+            columns: low.columns.clone(),
+            solved,
+            middle,
+        })
+    }
+}
+
+impl OperatorFactor {
+    /// The number of rows.
+    #[must_use]
+    #[allow(clippy::len_without_is_empty, reason = "a matrix has at least 3 rows")]
+    pub fn len(&self) -> usize {
+        self.band.len()
+    }
+
+    /// Turns the right-hand side `b` into the solution of `A x = b`, x and y in one sweep.
+    ///
+    /// O(n), allocates nothing.
+    pub fn solve(&self, b: &mut [DVec2]) {
+        self.band.solve(b);
+        self.correct(b);
+    }
+
+    /// Turns the right-hand side `b` into the solution, one number a row.
+    pub fn solve_scalars(&self, b: &mut [f64]) {
+        self.band.solve_scalars(b);
+        self.correct(b);
+    }
+
+    fn correct<V: Node<f64>>(&self, x: &mut [V]) {
+        let Some(correction) = &self.correction else {
+            return;
+        };
+        // Uᵀ B⁻¹ b is needed, and x is B⁻¹ b already
+        let along = weights(&correction.columns, &correction.middle, x);
+        for (column, along) in correction.solved.iter().zip(along) {
+            for (x, &z) in x.iter_mut().zip(column) {
+                *x = *x - along * z;
+            }
+        }
+    }
+}
