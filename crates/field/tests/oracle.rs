@@ -1,4 +1,10 @@
 //! The report's program, run by Octave, and what this crate says to the same images.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::float_cmp,
+    reason = "a test may stop, and exact means exact"
+)]
 
 mod common;
 
