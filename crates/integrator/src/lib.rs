@@ -1,1 +1,43 @@
-//! integrator
+//! Second-order systems in time.
+//!
+//! μ v̈ + γ v̇ = elastic(x) + external(t, x, v): a [`System`] says what its masses, dampings, stiffness
+//! and forces are, a [`Scheme`] is chosen by name, and the [`Stepper`] it starts moves a [`State`]
+//! one step at a time. Nothing here knows that the nodes belong to a curve or that forces come from
+//! an image.
+//!
+//! An explicit scheme is stable up to a largest step, which [`Scheme::step_limit`] computes; the
+//! others take the elastic force at the end of the step, at the cost of one banded solve, and have
+//! no such limit.
+//!
+//! ```
+//! use integrator::{Scheme, Start, problems};
+//!
+//! let mut spring = problems::damped_spring(1.0, 0.3, 1.0)?;
+//! let scheme: Scheme = "leapfrog".parse()?;
+//! scheme.check(&spring.system, 0.01, false)?;
+//! let mut stepper = scheme.start(&mut spring.system, &spring.state, 0.01, Start::SecondOrder)?;
+//! for _ in 0..100 {
+//!     stepper.step(&mut spring.system, &mut spring.state)?;
+//! }
+//! let exact = (spring.exact)(1.0);
+//! assert!((spring.state.x[0] - exact.x[0]).length() < 1e-5);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod contact;
+mod error;
+mod leapfrog;
+mod limits;
+pub mod problems;
+mod report;
+mod scheme;
+mod stepper;
+mod system;
+
+pub use contact::kinetic_energy;
+pub use error::SchemeError;
+pub use limits::{critical_damping, report_critical_damping};
+pub use report::report_steps;
+pub use scheme::Scheme;
+pub use stepper::{Start, Stepper};
+pub use system::{Fault, FaultKind, State, System, Touch};

@@ -1,0 +1,134 @@
+//! Obstacles met at the end of a step.
+//!
+//! A system says where a node that met something is put and how fast it leaves. Putting it there
+//! costs or yields energy: it is moved against or along the forces on it. What comes out must not be
+//! more than what went in, so the velocity that leads away from the obstacle is lowered by what the
+//! move has yielded. A stiff neighbour is not warned: contacts are met at the ends of steps only.
+
+use glam::DVec2;
+
+use crate::{Fault, State, System, Touch, stepper};
+
+/// The end of a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moment {
+    /// Its time.
+    pub(crate) t: f64,
+    /// How long the step was.
+    pub(crate) dt: f64,
+    /// How far the velocities are behind the positions.
+    pub(crate) lag: f64,
+}
+
+/// Scratch space for contacts.
+#[derive(Debug)]
+pub(crate) struct Contacts {
+    /// The touches of the last step.
+    pub(crate) touches: Vec<Touch>,
+    /// How far the touched nodes were moved; zero for all others.
+    shift: Vec<DVec2>,
+    force: Vec<DVec2>,
+    product: Vec<DVec2>,
+}
+
+impl Contacts {
+    pub(crate) fn new(n: usize) -> Self {
+        let zeros = || vec![DVec2::ZERO; n];
+        Self {
+            touches: Vec::with_capacity(n),
+            shift: zeros(),
+            force: zeros(),
+            product: zeros(),
+        }
+    }
+
+    /// Ask the system; true if any node touched something.
+    pub(crate) fn find(
+        &mut self,
+        system: &mut dyn System,
+        dt: f64,
+        before: &[DVec2],
+        x: &[DVec2],
+        v: &[DVec2],
+    ) -> bool {
+        self.touches.clear();
+        system.contacts(dt, before, x, v, &mut self.touches);
+        let held = system.held();
+        self.touches
+            .retain(|touch| !held.get(touch.node).copied().unwrap_or(true));
+        !self.touches.is_empty()
+    }
+
+    /// Meet all obstacles: put the touched nodes of `x` where they belong and turn their `v`.
+    ///
+    /// True if any node touched something.
+    pub(crate) fn meet(
+        &mut self,
+        system: &mut dyn System,
+        moment: Moment,
+        before: &[DVec2],
+        x: &mut [DVec2],
+        v: &mut [DVec2],
+    ) -> Result<bool, Fault> {
+        let Moment { t, dt, lag } = moment;
+        if !self.find(system, dt, before, x, v) {
+            return Ok(false);
+        }
+        self.shift.fill(DVec2::ZERO);
+        let mut leaves = false;
+        for touch in &self.touches {
+            let i = touch.node;
+            self.shift[i] = touch.position - x[i];
+            x[i] = touch.position;
+            leaves |= touch.velocity.is_some_and(|v| v.dot(self.shift[i]) > 0.0);
+        }
+        if leaves {
+            stepper::force(system, t, x, v, &mut self.force)?;
+            system
+                .stiffness()
+                .multiply_into(&self.shift, &mut self.product);
+        }
+        for touch in &self.touches {
+            let i = touch.node;
+            v[i] = match touch.velocity {
+                None => (touch.position - before[i]) / dt,
+                Some(asked) if leaves => self.tamed(system.mass()[i], lag, i, v[i], asked),
+                Some(asked) => asked,
+            };
+        }
+        Ok(true)
+    }
+
+    /// The velocity asked for, its part away from the obstacle no larger than energy allows.
+    fn tamed(&self, mass: f64, lag: f64, i: usize, v: DVec2, asked: DVec2) -> DVec2 {
+        let Some(away) = self.shift[i].try_normalize() else {
+            return asked;
+        };
+        let out = asked.dot(away);
+        if out <= 0.0 || mass <= 0.0 {
+            return asked;
+        }
+        // U(after) − U(before) of this node's move: −F·δ − ½ δ·Aδ with F where it was put
+        let gained = -self.force[i].dot(self.shift[i]) - 0.5 * self.product[i].dot(self.shift[i]);
+        let late = v.dot(away);
+        let full = late + lag * self.force[i].dot(away) / mass;
+        let into = if full < 0.0 {
+            late.abs().min(full.abs())
+        } else {
+            0.0
+        };
+        let most = (into * into - 2.0 * gained / mass).max(0.0).sqrt();
+        asked + away * (out.min(most) - out)
+    }
+}
+
+/// Kinetic energy, ½ Σ μ |v|².
+#[must_use]
+pub fn kinetic_energy(system: &dyn System, state: &State) -> f64 {
+    0.5 * system
+        .mass()
+        .iter()
+        .zip(&state.v)
+        .map(|(m, v)| m * v.length_squared())
+        .sum::<f64>()
+}

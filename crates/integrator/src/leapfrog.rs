@@ -1,0 +1,161 @@
+//! The report's scheme with the damping in the middle of the step.
+
+use glam::DVec2;
+
+use crate::contact::{Contacts, Moment};
+use crate::stepper::{self, Clock, Mass};
+use crate::{Fault, SchemeError, Start, State, Stepper, System};
+
+/// Leapfrog with centred damping, in increments.
+///
+/// ```text
+/// v½ = (1 − a/2) v + dt/(2μ) F(t, x)          a = γ dt / μ
+/// x⁺ = x + dt v½
+/// v⁺ = (v½ + dt/(2μ) F(t⁺, x⁺)) / (1 + a/2)
+/// ```
+///
+/// The positions are those of `x⁺ = [2x − (1 − a/2) x₋ + dt²/μ F] / (1 + a/2)`, without its
+/// cancellation (D18, D21). Forces that depend on velocity see `v½`.
+#[derive(Debug)]
+pub(crate) struct Leapfrog {
+    clock: Clock,
+    start: Start,
+    /// Whether `force` holds the force at the state.
+    ready: bool,
+    force: Vec<DVec2>,
+    next: Vec<DVec2>,
+    half: Vec<DVec2>,
+    coefficients: Vec<Coefficients>,
+    contacts: Contacts,
+}
+
+/// One node's share: all zero for a held one.
+#[derive(Debug, Clone, Copy)]
+struct Coefficients {
+    /// 1 − a/2.
+    keep: f64,
+    /// dt / (2 μ).
+    kick: f64,
+    /// 1 / (1 + a/2).
+    settle: f64,
+}
+
+impl Coefficients {
+    fn new(mass: f64, damping: f64, held: bool, dt: f64) -> Self {
+        if held {
+            return Self {
+                keep: 0.0,
+                kick: 0.0,
+                settle: 0.0,
+            };
+        }
+        let a = damping * dt / mass;
+        Self {
+            keep: 1.0 - 0.5 * a,
+            kick: 0.5 * dt / mass,
+            settle: 1.0 / (1.0 + 0.5 * a),
+        }
+    }
+}
+
+impl Leapfrog {
+    pub(crate) const NAME: &'static str = "leapfrog";
+
+    pub(crate) fn new(
+        system: &mut dyn System,
+        state: &State,
+        dt: f64,
+        start: Start,
+    ) -> Result<Self, SchemeError> {
+        system.advance(state.t);
+        stepper::check(Self::NAME, system, state, dt, Mass::Needed)?;
+        let n = state.len();
+        let zeros = || vec![DVec2::ZERO; n];
+        let mut stepper = Self {
+            clock: Clock::new(state, dt),
+            start,
+            ready: false,
+            force: zeros(),
+            next: zeros(),
+            half: zeros(),
+            coefficients: Vec::with_capacity(n),
+            contacts: Contacts::new(n),
+        };
+        stepper.prepare(system);
+        Ok(stepper)
+    }
+
+    fn prepare(&mut self, system: &dyn System) {
+        let (mass, damping, held) = (system.mass(), system.damping(), system.held());
+        self.coefficients.clear();
+        for i in 0..mass.len() {
+            self.coefficients.push(Coefficients::new(
+                mass[i],
+                damping[i],
+                held[i],
+                self.clock.dt,
+            ));
+        }
+    }
+}
+
+impl Stepper for Leapfrog {
+    fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
+        let dt = self.clock.dt;
+        if !self.ready {
+            stepper::force(
+                system,
+                self.clock.now(),
+                &state.x,
+                &state.v,
+                &mut self.force,
+            )?;
+        }
+        let late = !self.ready && self.start == Start::FirstOrder;
+        for i in 0..state.len() {
+            let c = self.coefficients[i];
+            let mut v = state.v[i];
+            if late {
+                // v₀ was meant half a step ago
+                v = c.settle * (v + c.kick * self.force[i]);
+            }
+            self.half[i] = c.keep * v + c.kick * self.force[i];
+            self.next[i] = state.x[i] + dt * self.half[i];
+        }
+        stepper::finite(&self.next)?;
+        let t = self.clock.next();
+        if system.advance(t) {
+            if stepper::densities(Self::NAME, system, Mass::Needed).is_err() {
+                return Err(stepper::unsolvable(&state.x));
+            }
+            self.prepare(system);
+        }
+        let moment = Moment {
+            t,
+            dt,
+            lag: 0.5 * dt,
+        };
+        let (next, half) = (&mut self.next, &mut self.half);
+        let touched = self.contacts.meet(system, moment, &state.x, next, half)?;
+        // the force of the old place is lost if the new one has none, so a fault starts afresh
+        self.ready = false;
+        stepper::force(system, t, next, half, &mut self.force)?;
+        self.ready = true;
+        for i in 0..state.len() {
+            let c = self.coefficients[i];
+            state.v[i] = c.settle * (half[i] + c.kick * self.force[i]);
+        }
+        if touched {
+            for touch in &self.contacts.touches {
+                state.v[touch.node] = half[touch.node];
+            }
+        }
+        std::mem::swap(&mut state.x, next);
+        self.clock.tick(state);
+        Ok(())
+    }
+
+    fn dt(&self) -> f64 {
+        self.clock.dt
+    }
+}

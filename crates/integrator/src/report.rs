@@ -1,0 +1,146 @@
+//! The report's own scheme, to the letter.
+
+use glam::DVec2;
+
+use crate::contact::{Contacts, Moment};
+use crate::stepper::{self, Mass};
+use crate::{Fault, SchemeError, Start, State, Stepper, System};
+
+/// Eq. 3.5 as the report's program computes it.
+///
+/// ```text
+/// x⁺ = (f + α₁ x + α₂ x₋ − K e) dt² / μ,   α₁ = 2 μ/dt² − γ/dt,   α₂ = γ/dt − μ/dt²
+/// ```
+///
+/// The velocity is the backward difference `(x − x₋) / dt` (D18). Positions are formed from terms as
+/// large as `2 μ x / dt²`, so rounding grows over thousands of steps (D21), and time is the sum of
+/// all `dt` (D20): both on purpose. A touch without velocity leaves `x₋` alone (D57).
+#[derive(Debug)]
+pub(crate) struct Report {
+    dt: f64,
+    start: Start,
+    first: bool,
+    previous: Vec<DVec2>,
+    backward: Vec<DVec2>,
+    next: Vec<DVec2>,
+    external: Vec<DVec2>,
+    elastic: Vec<DVec2>,
+    contacts: Contacts,
+}
+
+impl Report {
+    pub(crate) const NAME: &'static str = "report";
+
+    pub(crate) fn new(
+        system: &mut dyn System,
+        state: &State,
+        dt: f64,
+        start: Start,
+    ) -> Result<Self, SchemeError> {
+        system.advance(state.t);
+        stepper::check(Self::NAME, system, state, dt, Mass::Needed)?;
+        let zeros = || vec![DVec2::ZERO; state.len()];
+        let previous = state
+            .x
+            .iter()
+            .zip(&state.v)
+            .map(|(x, v)| x - v * dt)
+            .collect();
+        Ok(Self {
+            dt,
+            start,
+            first: true,
+            previous,
+            backward: state.v.clone(),
+            next: zeros(),
+            external: zeros(),
+            elastic: zeros(),
+            contacts: Contacts::new(state.len()),
+        })
+    }
+}
+
+impl Stepper for Report {
+    fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
+        let dt = self.dt;
+        let dt2 = dt * dt;
+        if system.advance(state.t) && stepper::densities(Self::NAME, system, Mass::Needed).is_err()
+        {
+            return Err(stepper::unsolvable(&state.x));
+        }
+        self.external.fill(DVec2::ZERO);
+        system.external(state.t, &state.x, &self.backward, &mut self.external)?;
+        system.elastic(&state.x, &mut self.elastic);
+        let (mass, damping, held) = (system.mass(), system.damping(), system.held());
+        if self.first && self.start == Start::SecondOrder {
+            for i in (0..state.len()).filter(|&i| !held[i]) {
+                let push = self.external[i] + self.elastic[i] - damping[i] * state.v[i];
+                self.previous[i] = state.x[i] - dt * state.v[i] + 0.5 * dt2 * push / mass[i];
+            }
+        }
+        for i in 0..state.len() {
+            let (mu, gamma) = (mass[i], damping[i]);
+            let alpha1 = 2.0 * mu / dt2 - gamma / dt;
+            let alpha2 = gamma / dt - mu / dt2;
+            let sum = self.external[i]
+                + alpha1 * state.x[i]
+                + alpha2 * self.previous[i]
+                + self.elastic[i];
+            self.next[i] = if held[i] { state.x[i] } else { sum * dt2 / mu };
+        }
+        stepper::finite(&self.next)?;
+        self.first = false;
+        for i in 0..state.len() {
+            self.backward[i] = (self.next[i] - state.x[i]) / dt;
+        }
+        // where the nodes are now is the step before for the next one
+        self.previous.copy_from_slice(&state.x);
+        let moment = Moment {
+            t: state.t + dt,
+            dt,
+            lag: 0.0,
+        };
+        let next = &mut self.next;
+        if self
+            .contacts
+            .meet(system, moment, &state.x, next, &mut self.backward)?
+        {
+            for touch in &self.contacts.touches {
+                let i = touch.node;
+                if touch.velocity.is_some() {
+                    self.previous[i] = next[i] - dt * self.backward[i];
+                }
+            }
+        }
+        std::mem::swap(&mut state.x, &mut self.next);
+        state.v.copy_from_slice(&self.backward);
+        state.t += dt;
+        state.step += 1;
+        Ok(())
+    }
+
+    fn dt(&self) -> f64 {
+        self.dt
+    }
+}
+
+/// How often the report's loop `while t < end, …, t = t + dt` goes round.
+///
+/// Rounding accumulates in `t`, so 500 at 0.01 takes 50001 steps, not 50000 (D20). None if the loop
+/// never ends or an argument is not finite.
+#[must_use]
+pub fn report_steps(end: f64, dt: f64) -> Option<u64> {
+    if !(end.is_finite() && dt.is_finite() && dt > 0.0) {
+        return None;
+    }
+    let (mut t, mut steps) = (0.0, 0);
+    while t < end {
+        let later = t + dt;
+        if later <= t {
+            return None;
+        }
+        t = later;
+        steps += 1;
+    }
+    Some(steps)
+}

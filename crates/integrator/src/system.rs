@@ -1,0 +1,166 @@
+//! What is moved, and what moves it.
+//!
+//! A scheme asks a [`System`] for forces and hands back a [`State`]; it never learns whether the
+//! nodes belong to a curve, hang on springs or fall freely.
+
+use banded::Operator;
+use glam::{DMat2, DVec2};
+
+/// Where every node is and how fast it moves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// Time.
+    pub t: f64,
+    /// Steps made so far.
+    pub step: u64,
+    /// Position of each node.
+    pub x: Vec<DVec2>,
+    /// Velocity of each node.
+    pub v: Vec<DVec2>,
+}
+
+impl State {
+    /// Nodes at rest at `x`, at time 0.
+    #[must_use]
+    pub fn at_rest(x: Vec<DVec2>) -> Self {
+        let v = vec![DVec2::ZERO; x.len()];
+        Self {
+            t: 0.0,
+            step: 0,
+            x,
+            v,
+        }
+    }
+
+    /// Number of nodes.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Whether there is no node at all.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+}
+
+/// Why a node stopped a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FaultKind {
+    /// An external force has no value there.
+    OutsideField,
+    /// A position, a velocity or a force became infinite or NaN.
+    NotFinite,
+    /// Mass, damping or stiffness changed to something the scheme cannot step with.
+    NoSolution,
+}
+
+/// A step that could not be made, and the node to blame.
+///
+/// An outcome rather than a mistake: a run that blows up ends here. The state is left as it was
+/// before the step.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("node {node} at ({}, {}) {}", at.x, at.y, match kind {
+    FaultKind::OutsideField => "is outside the force field",
+    FaultKind::NotFinite => "is not finite any more",
+    FaultKind::NoSolution => "has mass, damping or stiffness no step can be made with",
+})]
+pub struct Fault {
+    /// The first node concerned.
+    pub node: usize,
+    /// Where it was.
+    pub at: DVec2,
+    /// What was wrong.
+    pub kind: FaultKind,
+}
+
+/// A node that met something at the end of a step, and where that leaves it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// The node.
+    pub node: usize,
+    /// Where it is put.
+    pub position: DVec2,
+    /// Its velocity afterwards. `None`: only the position is set, and the velocity becomes what
+    /// carried it there, (position − before) / dt, as in the report's program (D57).
+    pub velocity: Option<DVec2>,
+}
+
+/// Nodes with mass, damping, stiffness and external forces: μ v̈ + γ v̇ = elastic + external.
+///
+/// The elastic force is affine in the positions: `elastic(x) − elastic(y) = −A (x − y)` with
+/// `A` = [`stiffness`](Self::stiffness), symmetric and never negative.
+pub trait System {
+    /// Number of nodes.
+    fn len(&self) -> usize;
+
+    /// Whether there is no node at all.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// μ: mass of each node.
+    fn mass(&self) -> &[f64];
+
+    /// γ: damping of each node.
+    fn damping(&self) -> &[f64];
+
+    /// Nodes that may not move.
+    fn held(&self) -> &[bool];
+
+    /// `A`; rows and columns of held nodes are zero.
+    fn stiffness(&self) -> &Operator;
+
+    /// Bring schedules to time `t`; true if mass, damping or stiffness changed.
+    fn advance(&mut self, t: f64) -> bool {
+        let _ = t;
+        false
+    }
+
+    /// Elastic force on every node; overwrites `force`, zero at held nodes.
+    fn elastic(&mut self, x: &[DVec2], force: &mut [DVec2]);
+
+    /// Adds the external force on every node to `force`.
+    ///
+    /// What it does to held nodes has no effect.
+    ///
+    /// # Errors
+    ///
+    /// A [`Fault`] where a force has no value.
+    fn external(
+        &mut self,
+        t: f64,
+        x: &[DVec2],
+        v: &[DVec2],
+        force: &mut [DVec2],
+    ) -> Result<(), Fault>;
+
+    /// Nodes that met an obstacle while going from `before` to `x`, appended to `touches`.
+    ///
+    /// `touches` comes empty, with room for one touch a node.
+    fn contacts(
+        &mut self,
+        dt: f64,
+        before: &[DVec2],
+        x: &[DVec2],
+        v: &[DVec2],
+        touches: &mut Vec<Touch>,
+    ) {
+        let _ = (dt, before, x, v, touches);
+    }
+
+    /// Largest stiffness and damping that a penalty contact adds at one node, for step limits.
+    fn contact_stiffness(&self) -> (f64, f64) {
+        (0.0, 0.0)
+    }
+
+    /// ∂(external force)/∂(position) of each node, for linearly implicit schemes.
+    ///
+    /// False, with `slope` left alone, where it is not known.
+    fn external_slope(&mut self, t: f64, x: &[DVec2], slope: &mut [DMat2]) -> bool {
+        let _ = (t, x, slope);
+        false
+    }
+}
