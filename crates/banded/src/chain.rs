@@ -109,7 +109,7 @@ pub(crate) struct Forward<V> {
 
 impl<V: Copy> Forward<V> {
     #[inline(always)]
-    pub(crate) fn step<E: Entry>(&mut self, b: &mut V, link: &Link<E>) -> V
+    pub(crate) fn step<E: Copy>(&mut self, b: &mut V, link: &Link<E>) -> V
     where
         V: Node<E>,
     {
@@ -132,7 +132,7 @@ pub(crate) struct Backward<V> {
 
 impl<V: Copy> Backward<V> {
     #[inline(always)]
-    pub(crate) fn step<E: Entry>(&mut self, node: &mut V, known: V, link: &Link<E>)
+    pub(crate) fn step<E: Copy>(&mut self, node: &mut V, known: V, link: &Link<E>)
     where
         V: Node<E>,
     {
@@ -173,7 +173,9 @@ impl<E: Entry> Heart<E> {
             reciprocal,
         })
     }
+}
 
+impl<E: Copy> Heart<E> {
     pub(crate) fn solve<V: Node<E>>(&self, b: &mut [V; 4]) {
         for k in 0..4 {
             for i in k + 1..4 {

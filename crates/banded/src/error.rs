@@ -49,12 +49,27 @@ pub enum BandedError {
         /// Smallest over largest eigenvalue, estimated.
         reciprocal_condition: f64,
     },
+    /// A complex matrix that cannot be eliminated in order without losing digits.
+    #[error(
+        "the elimination is unstable: a solution misses its right-hand side by {backward_error:e} \
+         of the matrix"
+    )]
+    Unstable {
+        /// `‖b − A x‖ / (‖A‖ ‖x‖)`.
+        backward_error: f64,
+    },
     /// The matrix asked for is symmetric, and this one is not.
     #[error("entry ({row}, {column}) differs from its mirror image")]
     NotSymmetric {
         /// The row, from 0.
         row: usize,
         /// The column, from 0.
+        column: usize,
+    },
+    /// A correction that takes all resistance from some direction.
+    #[error("column {column} of the correction makes the matrix singular")]
+    SingularCorrection {
+        /// The column, from 0, up to a change of basis.
         column: usize,
     },
     /// More columns of low rank than are worth a correction.

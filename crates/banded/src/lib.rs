@@ -24,20 +24,24 @@
 //! there is a curve.
 
 mod chain;
+mod complex;
 mod dense;
 mod error;
 mod factor;
+mod lowrank;
 mod matrix;
 mod operator;
 mod scalar;
 mod spectrum;
 mod twisted;
+mod weakest;
 
+pub use complex::{Complex, ComplexFactor, ComplexPoint};
 pub use dense::{Dense, Eigen};
 pub use error::BandedError;
 pub use factor::Factor;
 pub use matrix::Pentadiagonal;
-pub use operator::{Operator, OperatorFactor};
+pub use operator::{ComplexOperatorFactor, Operator, OperatorFactor};
 pub use spectrum::{largest_eigenvalue, smallest_eigenvalue};
 
 #[cfg(test)]

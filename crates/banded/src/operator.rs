@@ -5,25 +5,14 @@
 
 use glam::DVec2;
 
-use crate::scalar::Node;
-use crate::{BandedError, Dense, Factor, Pentadiagonal};
-
-/// The largest number of columns in a correction.
-const MOST: usize = 4;
+use crate::lowrank::{Correction, LowRank, MOST};
+use crate::{BandedError, Complex, ComplexFactor, ComplexPoint, Dense, Factor, Pentadiagonal};
 
 /// `A = B + U S Uᵀ`: a band `B`, and up to four dense columns `U` weighted by a small symmetric `S`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Operator {
     band: Pentadiagonal,
     low_rank: Option<LowRank>,
-}
-
-/// `U S Uᵀ`.
-#[derive(Debug, Clone, PartialEq)]
-struct LowRank {
-    columns: Vec<Vec<f64>>,
-    /// Row by row.
-    middle: Vec<f64>,
 }
 
 impl From<Pentadiagonal> for Operator {
@@ -146,11 +135,33 @@ impl Operator {
     /// Refuses what [`Factor::new`] refuses, and a correction that makes the whole singular.
     pub fn factor(&self) -> Result<OperatorFactor, BandedError> {
         let band = Factor::new(&self.band)?;
-        let correction = match &self.low_rank {
-            Some(low) => Some(Correction::new(&band, low)?),
-            None => None,
-        };
-        Ok(OperatorFactor { band, correction })
+        let solve = |column: &mut [f64]| band.solve_scalars(column);
+        let correction = self
+            .low_rank
+            .as_ref()
+            .map(|low| Correction::new(low, solve));
+        Ok(OperatorFactor {
+            correction: correction.transpose()?,
+            band,
+        })
+    }
+
+    /// Factors `diag(shift) + A` with one complex number a row. O(n).
+    ///
+    /// # Errors
+    ///
+    /// Refuses what [`ComplexFactor::new`] refuses, and a correction that makes the whole singular.
+    pub fn factor_shifted(&self, shift: &[Complex]) -> Result<ComplexOperatorFactor, BandedError> {
+        let band = ComplexFactor::new(&self.band, shift)?;
+        let solve = |column: &mut [Complex]| band.solve_scalars(column);
+        let correction = self
+            .low_rank
+            .as_ref()
+            .map(|low| Correction::new(low, solve));
+        Ok(ComplexOperatorFactor {
+            correction: correction.transpose()?,
+            band,
+        })
     }
 
     /// All n² entries.
@@ -161,93 +172,11 @@ impl Operator {
     }
 }
 
-impl LowRank {
-    fn entry(&self, i: usize, j: usize) -> f64 {
-        let k = self.columns.len();
-        let mut sum = 0.0;
-        for p in 0..k {
-            for q in 0..k {
-                sum += self.columns[p][i] * self.middle[p * k + q] * self.columns[q][j];
-            }
-        }
-        sum
-    }
-
-    fn add_product<V: Node<f64>>(&self, x: &[V], out: &mut [V]) {
-        let along = weights(&self.columns, &self.middle, x);
-        for (column, along) in self.columns.iter().zip(along) {
-            for (out, &u) in out.iter_mut().zip(column) {
-                *out = *out + along * u;
-            }
-        }
-    }
-}
-
-/// `S Uᵀ x`, with `S` row by row.
-fn weights<V: Node<f64>>(columns: &[Vec<f64>], middle: &[f64], x: &[V]) -> [V; MOST] {
-    let k = columns.len();
-    let mut along = [V::default(); MOST];
-    for (along, column) in along.iter_mut().zip(columns) {
-        *along = x
-            .iter()
-            .zip(column)
-            .fold(V::default(), |sum, (&x, &u)| sum + x * u);
-    }
-    let mut weighted = [V::default(); MOST];
-    for p in 0..k {
-        for q in 0..k {
-            weighted[p] = weighted[p] + along[q] * middle[p * k + q];
-        }
-    }
-    weighted
-}
-
 /// The factor of an [`Operator`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct OperatorFactor {
     band: Factor,
-    correction: Option<Correction>,
-}
-
-/// `A⁻¹ = B⁻¹ − Z H Zᵀ` with `Z = B⁻¹ U` and `H = (I + S Uᵀ Z)⁻¹ S`.
-#[derive(Debug, Clone, PartialEq)]
-struct Correction {
-    columns: Vec<Vec<f64>>,
-    solved: Vec<Vec<f64>>,
-    middle: Vec<f64>,
-}
-
-impl Correction {
-    fn new(band: &Factor, low: &LowRank) -> Result<Self, BandedError> {
-        let k = low.columns.len();
-        let mut solved = low.columns.clone();
-        for column in &mut solved {
-            band.solve_scalars(column);
-        }
-        let dot = |p: usize, q: usize| -> f64 {
-            low.columns[p]
-                .iter()
-                .zip(&solved[q])
-                .map(|(u, z)| u * z)
-                .sum()
-        };
-        let inner = Dense::from_fn(k, |i, j| {
-            let product: f64 = (0..k).map(|q| low.middle[i * k + q] * dot(q, j)).sum();
-            if i == j { 1.0 + product } else { product }
-        });
-        let mut middle = vec![0.0; k * k];
-        for j in 0..k {
-            let column: Vec<f64> = (0..k).map(|i| low.middle[i * k + j]).collect();
-            for (i, h) in inner.solve(&column)?.into_iter().enumerate() {
-                middle[i * k + j] = h;
-            }
-        }
-        Ok(Self {
-            columns: low.columns.clone(),
-            solved,
-            middle,
-        })
-    }
+    correction: Option<Correction<f64>>,
 }
 
 impl OperatorFactor {
@@ -263,25 +192,42 @@ impl OperatorFactor {
     /// O(n), allocates nothing.
     pub fn solve(&self, b: &mut [DVec2]) {
         self.band.solve(b);
-        self.correct(b);
+        if let Some(correction) = &self.correction {
+            correction.correct(b);
+        }
     }
 
     /// Turns the right-hand side `b` into the solution, one number a row.
     pub fn solve_scalars(&self, b: &mut [f64]) {
         self.band.solve_scalars(b);
-        self.correct(b);
+        if let Some(correction) = &self.correction {
+            correction.correct(b);
+        }
+    }
+}
+
+/// The factor of an [`Operator`] with a complex diagonal added.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComplexOperatorFactor {
+    band: ComplexFactor,
+    correction: Option<Correction<Complex>>,
+}
+
+impl ComplexOperatorFactor {
+    /// The number of rows.
+    #[must_use]
+    #[allow(clippy::len_without_is_empty, reason = "a matrix has at least 3 rows")]
+    pub fn len(&self) -> usize {
+        self.band.len()
     }
 
-    fn correct<V: Node<f64>>(&self, x: &mut [V]) {
-        let Some(correction) = &self.correction else {
-            return;
-        };
-        // Uᵀ B⁻¹ b is needed, and x is B⁻¹ b already
-        let along = weights(&correction.columns, &correction.middle, x);
-        for (column, along) in correction.solved.iter().zip(along) {
-            for (x, &z) in x.iter_mut().zip(column) {
-                *x = *x - along * z;
-            }
+    /// Turns the right-hand side `b` into the solution, x and y in one sweep.
+    ///
+    /// O(n), allocates nothing.
+    pub fn solve(&self, b: &mut [ComplexPoint]) {
+        self.band.solve(b);
+        if let Some(correction) = &self.correction {
+            correction.correct(b);
         }
     }
 }

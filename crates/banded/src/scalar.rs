@@ -1,7 +1,8 @@
 //! What an entry of a matrix and a node of a right-hand side can be.
 //!
-//! The elimination is written once. An entry is a real number, a complex number, or one real number
-//! a lane; a node of a right-hand side is whatever can be subtracted and multiplied by an entry.
+//! The elimination is written once, for real and for complex entries. A node of a right-hand side is
+//! whatever can be subtracted and multiplied by an entry: a number, a point, a number for each of
+//! several lanes.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -14,8 +15,14 @@ pub(crate) trait Entry:
     const ZERO: Self;
     const ONE: Self;
 
-    /// The largest magnitude in it.
+    /// A real number as an entry.
+    fn real(value: f64) -> Self;
+
+    /// The magnitude.
     fn size(self) -> f64;
+
+    /// One over it.
+    fn inverse(self) -> Self;
 
     /// One over the pivot of a row, or why there is none.
     fn reciprocal(self, row: usize) -> Result<Self, BandedError>;
@@ -25,8 +32,16 @@ impl Entry for f64 {
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
 
+    fn real(value: f64) -> Self {
+        value
+    }
+
     fn size(self) -> f64 {
         self.abs()
+    }
+
+    fn inverse(self) -> Self {
+        1.0 / self
     }
 
     fn reciprocal(self, row: usize) -> Result<Self, BandedError> {

@@ -40,6 +40,35 @@ pub(crate) struct Diagonals<'a, E> {
     pub(crate) second: &'a [E],
 }
 
+impl<E: Entry + Node<E>> Diagonals<'_, E> {
+    /// Row `i` times `x`, and the sum of the row's magnitudes.
+    pub(crate) fn row(&self, i: usize, x: &[E]) -> (E, f64) {
+        let n = self.diagonal.len();
+        let (back, back2) = ((i + n - 1) % n, (i + n - 2) % n);
+        let entries = [
+            (self.diagonal[i], i),
+            (self.first[back], back),
+            (self.first[i], (i + 1) % n),
+            (self.second[back2], back2),
+            (self.second[i], (i + 2) % n),
+        ];
+        let add = |(sum, size): (E, f64), (a, j): (E, usize)| (sum + a * x[j], size + a.size());
+        entries.into_iter().fold((E::ZERO, 0.0), add)
+    }
+
+    /// Refuses a number that is not finite.
+    pub(crate) fn check_finite(&self) -> Result<(), BandedError> {
+        let entries = self.diagonal.iter().zip(self.first).zip(self.second);
+        match entries
+            .into_iter()
+            .position(|((d, f), s)| !(d.size() + f.size() + s.size()).is_finite())
+        {
+            Some(row) => Err(BandedError::NotFinite { row }),
+            None => Ok(()),
+        }
+    }
+}
+
 impl<E: Entry> Twisted<E> {
     pub(crate) fn new(a: &Diagonals<'_, E>) -> Result<Self, BandedError> {
         let n = a.diagonal.len();
@@ -106,7 +135,9 @@ impl<E: Entry> Twisted<E> {
             heart: Heart::new(heart, names)?,
         })
     }
+}
 
+impl<E: Copy> Twisted<E> {
     pub(crate) fn len(&self) -> usize {
         self.left.links.len() + 2 + self.right.links.len() + if self.cyclic { 2 } else { 0 }
     }
