@@ -16,9 +16,9 @@
 //! Spikes fade along the chain at a rate set by the matrix. They are kept as far as they matter:
 //! what is dropped is below [`FADED`] times the largest diagonal element.
 
-use crate::BandedError;
 use crate::chain::{Backward, Chain, Forward, Heart, Rows};
 use crate::scalar::{Entry, Node};
+use crate::{BandedError, Lanes};
 
 /// Couplings below this part of the largest diagonal element are zero: 1e-5 of its last place.
 const FADED: f64 = 1e-21;
@@ -248,6 +248,18 @@ impl<E: Copy> Twisted<E> {
                 x = x - (b0 * f[0] + b1 * f[1]);
             }
             to_left.step(a, x, to);
+        }
+    }
+}
+
+impl<const W: usize> Twisted<Lanes<W>> {
+    /// Factors of one size and kind, one a lane.
+    pub(crate) fn side_by_side(factors: [&Twisted<f64>; W]) -> Self {
+        Self {
+            cyclic: factors[0].cyclic,
+            left: Chain::side_by_side(factors.map(|factor| &factor.left)),
+            right: Chain::side_by_side(factors.map(|factor| &factor.right)),
+            heart: Heart::side_by_side(factors.map(|factor| &factor.heart)),
         }
     }
 }
