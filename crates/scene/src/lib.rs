@@ -1,1 +1,48 @@
-//! scene
+//! Situations as text, pictures and records as files.
+//!
+//! This is the first floor with windows: everything below computes and does no I/O. A scene is a
+//! TOML text that names a picture, a curve, a material, a world and a plan; [`Scene::parse`] turns
+//! it into a snake ready to run and refuses what makes no sense, by its key. The shipped scenes are
+//! [`SCENES`]; `docs/formats.md` describes the formats by example.
+//!
+//! ```
+//! use scene::Scene;
+//!
+//! let mut scene = Scene::named("soft-ball")?;
+//! scene.plan.until.steps = 100;
+//! let record = scene.run(&mut |_| std::ops::ControlFlow::Continue(()))?;
+//! assert_eq!(record.outcome.to_string(), "finished after 100 steps");
+//!
+//! let error = Scene::named("soft-bal").unwrap_err();
+//! assert!(error.to_string().contains("did you mean \"soft-ball\"?"));
+//! # Ok::<(), scene::SceneError>(())
+//! ```
+
+mod build;
+mod catalogue;
+mod contour;
+mod error;
+mod file;
+mod fit;
+pub mod paint;
+mod picture;
+mod record;
+mod scene;
+mod stages;
+mod write;
+
+pub use catalogue::{SCENES, contour};
+pub use contour::Contour;
+pub use error::SceneError;
+pub use fit::Fit;
+pub use picture::Picture;
+pub use record::{Frame, Record};
+pub use scene::{Plan, Recording, Scene, View};
+pub use stages::{stages, write_stages};
+pub use write::{ready_folder, write_whole};
+
+pub use elastic;
+pub use field;
+pub use image::RgbImage;
+pub use integrator;
+pub use snake;

@@ -1,1 +1,58 @@
-//! snake
+//! A snake: an elastic curve with mass in a physical world.
+//!
+//! This is the room where the three quiet crates meet. [`elastic`] says what force a deformed
+//! curve exerts on itself, [`field`] what force a picture exerts at a point, [`integrator`] where
+//! a system of masses is one step later; here they become one [`Snake`], which moves by
+//!
+//! ```text
+//! μ ẍ + γ ẋ + K e = f                                     (report Eq. 3.4)
+//! ```
+//!
+//! with `e = x − c − r` the deformation from the rest shape `r` about the center of mass `c`, and
+//! `f` the sum of everything in its [`World`]. All terms are per unit of arc length at rest.
+//!
+//! ```
+//! use glam::DVec2;
+//! use integrator::{Scheme, Start, State};
+//! use snake::{Body, Outcome, Snake, Until, World, run};
+//!
+//! let circle = elastic::circle(DVec2::ZERO, 10.0, 40)?;
+//! let body = Body::of(&circle, elastic::Topology::Closed, 1.0)?.with_damping(0.5);
+//! let mut snake = Snake::new(body, World::default().with_gravity(DVec2::new(0.0, 9.8)))?;
+//! let mut state = State::at_rest(circle);
+//! let mut stepper = Scheme::Leapfrog.start(&mut snake, &state, 0.01, Start::SecondOrder)?;
+//! let outcome = run(&mut snake, &mut *stepper, &mut state, &Until::steps(100), &mut |_, _| {
+//!     std::ops::ControlFlow::Continue(())
+//! });
+//! assert_eq!(outcome, Outcome::Finished { step: 100 });
+//! assert!(state.x[0].y > 4.0); // it fell, for one unit of time
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! It does no I/O and knows no file, no format and no drawing. A run ends with an [`Outcome`];
+//! blowing up is one of them, not an error.
+//!
+//! What it cannot do yet: turn its body frame (report §5.2), push with a pressure (§5.4), re-space
+//! its nodes, or meet another snake.
+
+mod body;
+mod energy;
+mod error;
+mod external;
+mod run;
+mod schedule;
+mod snake;
+mod wall;
+
+pub use body::{Body, Center, Frame};
+pub use energy::{Energies, Ledger};
+pub use error::SnakeError;
+pub use external::{External, ImageForce, Sampling, World};
+pub use run::{Outcome, Rest, Until, run};
+pub use schedule::{Schedule, Schedules};
+pub use snake::Snake;
+pub use wall::{Wall, WallLaw};
+
+pub use elastic;
+pub use field;
+pub use integrator;

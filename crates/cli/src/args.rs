@@ -1,0 +1,142 @@
+//! Flags as typed.
+
+use std::path::PathBuf;
+
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+
+/// Elastic curves with mass that find, measure and follow outlines in pictures.
+///
+/// Exit code 0: at rest, or ran as asked. 1: ran, but blew up, left the picture or ran out of steps
+/// before rest. 2: refused, and why.
+#[derive(Debug, Parser)]
+#[command(name = "snake", version, max_term_width = 100)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Run a scene: a shipped one by name (see `list`), or a TOML file.
+    Run(Run),
+    /// Write every stage from a picture to its force field as pictures.
+    Field(Field),
+    /// Pull a drawn contour onto the edges of a picture.
+    Fit(Fit),
+    /// List the shipped scenes, or the schemes.
+    List(List),
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Run {
+    /// A shipped scene's name, or a scene file.
+    pub scene: String,
+    /// Another scheme than the scene's.
+    #[arg(long, value_name = "NAME")]
+    pub scheme: Option<String>,
+    /// Another step than the scene's.
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub dt: Option<f64>,
+    /// Another number of steps than the scene's.
+    #[arg(long, value_name = "N")]
+    pub steps: Option<u64>,
+    /// Run although the step is beyond the limit of stability.
+    #[arg(long)]
+    pub force: bool,
+    /// Write the moments kept: `.csv` as CSV, else JSON Lines; `-` to standard output.
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// Keep a moment every N steps (and the first and the last).
+    #[arg(long, value_name = "N")]
+    pub every: Option<u64>,
+    /// Keep velocities too.
+    #[arg(long)]
+    pub velocities: bool,
+    /// Keep energies too.
+    #[arg(long)]
+    pub energies: bool,
+    /// Write the final contour; `-` to standard output.
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Write the picture with the start (blue) and the final contour (orange) over it.
+    #[arg(long, value_name = "PNG")]
+    pub overlay: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Field {
+    /// The picture: PNG, JPEG, TIFF, PGM or PPM.
+    pub image: PathBuf,
+    /// Folder to write to; made if it is not there.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Smooth by a Gaussian of this width, pixels.
+    #[arg(long, value_name = "PX", conflicts_with = "passes")]
+    pub sigma: Option<f64>,
+    /// Smooth by so many passes of [1/4 1/2 1/4]; the report takes 20, a width of 3.16 pixels.
+    #[arg(long, value_name = "N")]
+    pub passes: Option<u32>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Fit {
+    /// The picture: PNG, JPEG, TIFF, PGM or PPM.
+    pub image: PathBuf,
+    /// The contour to start from: a CSV of x,y, pixels, the first pixel's center at 0,0.
+    #[arg(long, value_name = "CONTOUR")]
+    pub from: PathBuf,
+    /// Write the contour found; standard output if not given.
+    #[arg(long, value_name = "CONTOUR")]
+    pub out: Option<PathBuf>,
+    /// Write the picture with the start (blue) and the contour found (orange) over it.
+    #[arg(long, value_name = "PNG")]
+    pub overlay: Option<PathBuf>,
+    /// The contour is open.
+    #[arg(long, conflicts_with = "closed")]
+    pub open: bool,
+    /// The contour is closed, whatever its file says.
+    #[arg(long)]
+    pub closed: bool,
+    /// Number of nodes; one every four pixels if not given.
+    #[arg(long, value_name = "N")]
+    pub nodes: Option<usize>,
+    /// How hard each node is held to its place in the start's shape.
+    #[arg(long, value_name = "W0", default_value_t = scene::Fit::default().tether)]
+    pub tether: f64,
+    /// How hard the curve resists stretching out of the start's shape.
+    #[arg(long, value_name = "W1", default_value_t = scene::Fit::default().tension)]
+    pub tension: f64,
+    /// How hard the curve resists bending out of the start's shape.
+    #[arg(long, value_name = "W2", default_value_t = scene::Fit::default().rigidity)]
+    pub rigidity: f64,
+    /// How strongly the motion is damped.
+    #[arg(long, value_name = "G", default_value_t = scene::Fit::default().damping)]
+    pub damping: f64,
+    /// Width of the Gaussian that smooths the picture, pixels; the reach is about three times that.
+    #[arg(long, value_name = "PX", default_value_t = scene::Fit::default().sigma)]
+    pub sigma: f64,
+    /// How hard the picture pulls; 1 suits most.
+    #[arg(long, value_name = "S", default_value_t = scene::Fit::default().strength)]
+    pub strength: f64,
+    /// The step; half of the largest stable one if not given.
+    #[arg(long, value_name = "T")]
+    pub dt: Option<f64>,
+    /// Steps at most.
+    #[arg(long, value_name = "N", default_value_t = scene::Fit::default().steps)]
+    pub steps: u64,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct List {
+    /// What to list.
+    #[arg(value_enum, default_value_t = What::Scenes)]
+    pub what: What,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum What {
+    /// Shipped scenes.
+    Scenes,
+    /// Schemes that move a snake.
+    Schemes,
+}

@@ -1,0 +1,465 @@
+//! The text of a scene, exactly as written: the types that serde fills.
+//!
+//! Every key that may be left out is an `Option` or has its default here; what the values mean is
+//! decided in `build`. `docs/formats.md` explains the format by example.
+
+use serde::{Deserialize, Deserializer};
+
+use crate::SceneError;
+use crate::error::nearest;
+
+/// A number, one number a node, or points along the curve.
+#[derive(Debug, Clone)]
+pub(crate) enum ProfileText {
+    Uniform(f64),
+    PerNode(Vec<f64>),
+    Along(Along),
+}
+
+impl<'de> Deserialize<'de> for ProfileText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match toml::Value::deserialize(deserializer)? {
+            toml::Value::Float(value) => Ok(Self::Uniform(value)),
+            toml::Value::Array(values) => inner(toml::Value::Array(values)).map(Self::PerNode),
+            toml::Value::Table(table) => inner(toml::Value::Table(table)).map(Self::Along),
+            // as serde reads any other number
+            toml::Value::Integer(value) => inner(toml::Value::Integer(value)).map(Self::Uniform),
+            other => Err(wrong(
+                "a number, one number a node, or { along = [[s, value], …] }",
+                &other,
+            )),
+        }
+    }
+}
+
+/// What is inside a value that may have several forms.
+fn inner<T: for<'a> Deserialize<'a>, E: serde::de::Error>(value: toml::Value) -> Result<T, E> {
+    T::deserialize(value).map_err(|error| E::custom(error.message()))
+}
+
+fn wrong<E: serde::de::Error>(wanted: &str, given: &toml::Value) -> E {
+    E::custom(format!("expected {wanted}, got {given}"))
+}
+
+/// `{ along = [[s, value], …] }`: straight between points, `s` from 0 (first node) to 1 (last).
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Along {
+    pub along: Vec<[f64; 2]>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct SceneText {
+    pub title: String,
+    #[serde(default)]
+    pub report: Option<String>,
+    #[serde(default)]
+    pub note: Option<String>,
+    #[serde(default)]
+    pub rules: RulesText,
+    #[serde(default)]
+    pub view: ViewText,
+    #[serde(default)]
+    pub picture: Option<PictureText>,
+    #[serde(default)]
+    pub field: FieldText,
+    pub snake: SnakeText,
+    pub material: MaterialText,
+    pub densities: DensitiesText,
+    #[serde(default)]
+    pub schedule: ScheduleText,
+    #[serde(default)]
+    pub world: WorldText,
+    pub run: RunText,
+    #[serde(default)]
+    pub record: RecordText,
+}
+
+/// Whose rules: the report's program, or ours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Rule {
+    Report,
+    Corrected,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum RulesText {
+    All(Rule),
+    Each(Box<EachRule>),
+}
+
+impl<'de> Deserialize<'de> for RulesText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = toml::Value::deserialize(deserializer)?;
+        match value {
+            toml::Value::String(_) => inner(value).map(Self::All),
+            toml::Value::Table(_) => inner(value).map(|each| Self::Each(Box::new(each))),
+            other => Err(wrong(
+                "\"report\", \"corrected\" or a table of rules",
+                &other,
+            )),
+        }
+    }
+}
+
+impl Default for RulesText {
+    fn default() -> Self {
+        Self::All(Rule::Corrected)
+    }
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct EachRule {
+    pub all: Option<Rule>,
+    pub frame: Option<Rule>,
+    pub ends: Option<Rule>,
+    pub field: Option<Rule>,
+    pub sampling: Option<Rule>,
+    pub spline: Option<Rule>,
+    pub spacing: Option<Rule>,
+    pub start: Option<Rule>,
+    pub border: Option<Rule>,
+    pub clock: Option<Rule>,
+}
+
+/// How a drawing should look at the scene.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct ViewText {
+    /// "down" (pictures) or "up" (chapter 2).
+    pub y: Option<UpDown>,
+    /// `[x0, y0, x1, y1]`.
+    pub window: Option<[f64; 4]>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum UpDown {
+    Up,
+    Down,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) enum PictureText {
+    /// A file beside the scene.
+    File(String),
+    /// A picture that comes with the program.
+    Shipped(String),
+    /// Drawn from numbers.
+    Drawn(DrawnText),
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct DrawnText {
+    pub size: [usize; 2],
+    #[serde(default = "sixty")]
+    pub background: f64,
+    #[serde(default = "two_hundred")]
+    pub foreground: f64,
+    #[serde(default)]
+    pub blur: f64,
+    #[serde(default)]
+    pub noise: f64,
+    #[serde(default)]
+    pub seed: u64,
+    pub region: RegionText,
+}
+
+fn sixty() -> f64 {
+    60.0
+}
+
+fn two_hundred() -> f64 {
+    200.0
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) enum RegionText {
+    /// Everything right of x.
+    RightOf(f64),
+    /// `[x0, y0, x1, y1]`.
+    Box([f64; 4]),
+    Ellipse(EllipseText),
+    Circle(CircleText),
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct FieldText {
+    pub passes: Option<u32>,
+    pub sigma: Option<f64>,
+    pub scale: Option<f64>,
+    pub gain: Option<f64>,
+    #[serde(default)]
+    pub weight: Option<ProfileText>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct CircleText {
+    pub center: [f64; 2],
+    pub radius: f64,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct EllipseText {
+    pub center: [f64; 2],
+    pub axes: [f64; 2],
+    #[serde(default)]
+    pub angle: f64,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct SegmentText {
+    pub from: [f64; 2],
+    pub to: [f64; 2],
+}
+
+/// A curve, before it has nodes.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) enum ShapeText {
+    Circle(CircleText),
+    Ellipse(EllipseText),
+    Segment(SegmentText),
+    /// Clicked points, joined by a spline.
+    Points(Vec<[f64; 2]>),
+    /// The nodes themselves.
+    Nodes(Vec<[f64; 2]>),
+    /// A contour file beside the scene, joined by a spline.
+    File(String),
+    /// A contour that comes with the program.
+    Shipped(String),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum EndText {
+    Free,
+    Anchored,
+    Pinned,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum OpenClosed {
+    Open,
+    Closed,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum TopologyText {
+    Word(OpenClosed),
+    Ends(EndsText),
+}
+
+impl<'de> Deserialize<'de> for TopologyText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = toml::Value::deserialize(deserializer)?;
+        match value {
+            toml::Value::String(_) => inner(value).map(Self::Word),
+            toml::Value::Table(_) => inner(value).map(Self::Ends),
+            other => Err(wrong(
+                "\"open\", \"closed\" or { head = …, tail = … }",
+                &other,
+            )),
+        }
+    }
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct EndsText {
+    pub head: EndText,
+    pub tail: EndText,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct SnakeText {
+    pub nodes: Option<usize>,
+    pub topology: TopologyText,
+    pub start: ShapeText,
+    #[serde(default)]
+    pub rest: Option<ShapeText>,
+    #[serde(default)]
+    pub velocity: [f64; 2],
+    /// Angular velocity about the center, radians per unit of time, from +x towards +y.
+    #[serde(default)]
+    pub spin: f64,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct MaterialText {
+    pub tether: ProfileText,
+    pub tension: ProfileText,
+    pub rigidity: ProfileText,
+    /// Nodes at which the rigidity is 0.
+    #[serde(default)]
+    pub corners: Vec<usize>,
+    /// Nodes after which the curve may part.
+    #[serde(default)]
+    pub breaks: Vec<usize>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct DensitiesText {
+    pub mass: ProfileText,
+    pub damping: ProfileText,
+}
+
+/// `[[time, factor], …]` for each parameter.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct ScheduleText {
+    pub tether: Option<Vec<[f64; 2]>>,
+    pub tension: Option<Vec<[f64; 2]>>,
+    pub rigidity: Option<Vec<[f64; 2]>>,
+    pub mass: Option<Vec<[f64; 2]>>,
+    pub damping: Option<Vec<[f64; 2]>>,
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct WorldText {
+    #[serde(default)]
+    pub gravity: Option<[f64; 2]>,
+    #[serde(default)]
+    pub wall: Vec<WallText>,
+    /// What happens at the borders of the picture.
+    #[serde(default)]
+    pub border: Option<BorderText>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum BorderText {
+    /// Nothing: nodes may leave.
+    None,
+    /// The report's: clamped at the top and the bottom only.
+    Clamp,
+    /// All four sides stop a node.
+    Stop,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct WallText {
+    pub point: [f64; 2],
+    pub normal: [f64; 2],
+    pub law: LawText,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) enum LawText {
+    Clamp,
+    Penalty(PenaltyText),
+    Impact(ImpactText),
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct PenaltyText {
+    pub stiffness: f64,
+    #[serde(default)]
+    pub damping: f64,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct ImpactText {
+    #[serde(default)]
+    pub restitution: f64,
+    #[serde(default)]
+    pub friction: f64,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct RestText {
+    pub speed: f64,
+    pub force: f64,
+    #[serde(default = "ten")]
+    pub every: u64,
+}
+
+fn ten() -> u64 {
+    10
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct RunText {
+    #[serde(default)]
+    pub scheme: Option<String>,
+    pub dt: f64,
+    #[serde(default)]
+    pub steps: Option<u64>,
+    #[serde(default)]
+    pub time: Option<f64>,
+    #[serde(default)]
+    pub rest: Option<RestText>,
+    /// Run although the step is beyond the limit.
+    #[serde(default)]
+    pub force: bool,
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct RecordText {
+    pub every: Option<u64>,
+    pub steps: Option<Vec<u64>>,
+    #[serde(default)]
+    pub velocities: bool,
+    #[serde(default)]
+    pub energies: bool,
+}
+
+/// Read the text of a scene.
+pub(crate) fn parse(text: &str) -> Result<SceneText, SceneError> {
+    toml::from_str(text).map_err(|error| {
+        let line = error.span().map_or(1, |span| {
+            text.get(..span.start)
+                .map_or(1, |before| before.matches('\n').count() + 1)
+        });
+        SceneError::Text {
+            line,
+            message: helpful(error.message()),
+        }
+    })
+}
+
+/// A message of serde's, with the nearest known key where it names an unknown one.
+fn helpful(message: &str) -> String {
+    let mut quoted = message.split('`').skip(1).step_by(2);
+    let first_line = message.lines().next().unwrap_or(message);
+    let unknown = message.starts_with("unknown field") || message.starts_with("unknown variant");
+    match (unknown, quoted.next()) {
+        (true, Some(word)) => {
+            let known: Vec<&str> = quoted.collect();
+            if known.is_empty() {
+                return first_line.to_owned();
+            }
+            let nearest = nearest(word, known.iter().copied());
+            let what = if message.starts_with("unknown field") {
+                "key"
+            } else {
+                "word"
+            };
+            let known = known.join(", ");
+            format!("unknown {what} \"{word}\"; did you mean \"{nearest}\"? (known: {known})")
+        }
+        _ => first_line.to_owned(),
+    }
+}

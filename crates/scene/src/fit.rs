@@ -1,0 +1,202 @@
+//! A scene for one picture and one drawn contour: what `snake fit` runs.
+
+use std::sync::Arc;
+
+use elastic::{Material, Parameter, Topology};
+use field::{EdgeForce, Smoothing};
+use glam::DVec2;
+use integrator::{Scheme, Start, State};
+use snake::{Body, Rest, Sampling, Snake, Until, Wall, WallLaw, World};
+
+use crate::scene::{Plan, Recording, Scene, View};
+use crate::{Contour, Picture, SceneError};
+
+/// How to fit a contour to a picture. [`Fit::default`] suits outlines of some tens to thousands of
+/// pixels drawn within about ten pixels of an edge.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// Number of nodes; by default one every four pixels, 16 at least and 4000 at most.
+    pub nodes: Option<usize>,
+    /// Whether the curve is closed; by default as its file says, and closed when it does not.
+    pub closed: Option<bool>,
+    /// ω₀. M T⁻².
+    pub tether: f64,
+    /// ω₁. M L² T⁻².
+    pub tension: f64,
+    /// ω₂. M L⁴ T⁻².
+    pub rigidity: f64,
+    /// γ. M T⁻¹. μ is 1.
+    pub damping: f64,
+    /// Smoothing of the picture before it is differentiated, as σ in pixels.
+    pub sigma: f64,
+    /// Force of an edge as high as the picture's own contrast, relative to that of an edge of 120
+    /// grey levels under the report's rules.
+    pub strength: f64,
+    /// The step; by default half of the largest stable one.
+    pub dt: Option<f64>,
+    /// Steps at most.
+    pub steps: u64,
+}
+
+impl Default for Fit {
+    fn default() -> Self {
+        Self {
+            nodes: None,
+            closed: None,
+            tether: 0.0,
+            tension: 20.0,
+            rigidity: 100.0,
+            damping: 2.0,
+            sigma: 10.0_f64.sqrt(),
+            strength: 1.0,
+            dt: None,
+            steps: 20_000,
+        }
+    }
+}
+
+impl Fit {
+    /// The scene of this fit: `contour` in `picture`, under the corrected rules.
+    ///
+    /// The picture's contrast is measured (from the 2nd to the 98th percentile of its levels) and
+    /// the gain chosen so that the result does not depend on the picture's exposure.
+    ///
+    /// # Errors
+    ///
+    /// A contour with too few points or outside the picture, or a number that will not do; by the
+    /// name of the flag.
+    pub fn scene(&self, picture: Picture, contour: &Contour) -> Result<Scene, SceneError> {
+        let closed = self.closed.or(contour.closed).unwrap_or(true);
+        let mut clicks = contour.points.clone();
+        // a polygon whose last point repeats the first is closed already
+        if closed && clicks.len() > 1 && clicks.first() == clicks.last() {
+            clicks.pop();
+        }
+        let refuse = |flag: &'static str| move |e: elastic::ElasticError| SceneError::key(flag, e);
+        let (width, height) = picture.size();
+        let far = DVec2::new(width as f64, height as f64) - 0.5;
+        if let Some(i) = clicks
+            .iter()
+            .position(|p| p.cmplt(DVec2::splat(-0.5)).any() || p.cmpgt(far).any())
+        {
+            let p = clicks[i];
+            let message = format!(
+                "point {i} at ({}, {}) is outside the picture of {width}×{height} pixels",
+                p.x, p.y
+            );
+            return Err(SceneError::key("--from", message));
+        }
+        let along = elastic::length(&clicks, closed);
+        let nodes = self.nodes.unwrap_or_else(|| nodes_for(along));
+        if nodes > 10_000_000 {
+            return Err(SceneError::key(
+                "--nodes",
+                format!("got {nodes}; at most 10000000 would do"),
+            ));
+        }
+        let mut x = elastic::spline(&clicks, nodes, Parameter::ArcLength, closed)
+            .map_err(refuse("--from"))?;
+        let last = DVec2::new((width - 1) as f64, (height - 1) as f64);
+        for p in &mut x {
+            *p = p.clamp(DVec2::ZERO, last);
+        }
+        for (flag, value) in [
+            ("--tether", self.tether),
+            ("--tension", self.tension),
+            ("--rigidity", self.rigidity),
+            ("--damping", self.damping),
+        ] {
+            if !(value.is_finite() && value >= 0.0) {
+                let message = format!("must be finite and at least 0, got {value}");
+                return Err(SceneError::key(flag, message));
+            }
+        }
+        if !(self.strength.is_finite() && self.strength > 0.0) {
+            let message = format!("must be finite and above 0, got {}", self.strength);
+            return Err(SceneError::key("--strength", message));
+        }
+        let gain =
+            self.strength * EdgeForce::as_strong_as_the_report().gain * 120.0 / contrast(&picture);
+        let rule = EdgeForce {
+            smoothing: Smoothing::Gaussian(self.sigma),
+            gain,
+        };
+        let field =
+            field::edge_force(&picture.levels, &rule).map_err(|e| SceneError::key("--sigma", e))?;
+        let field = Arc::new(field);
+        let topology = if closed {
+            Topology::Closed
+        } else {
+            Topology::open(elastic::End::Free)
+        };
+        let unfit = |e: snake::SnakeError| SceneError::key("--from", e);
+        let body = Body::of(&x, topology, 1.0)
+            .map_err(unfit)?
+            .with_material(Material::uniform(self.tether, self.tension, self.rigidity))
+            .with_damping(self.damping);
+        let mut world = World::default().with_image(Arc::clone(&field), Sampling::Bilinear);
+        let law = WallLaw::Impact {
+            restitution: 0.0,
+            friction: 0.0,
+        };
+        for (point, normal) in [
+            (DVec2::ZERO, DVec2::X),
+            (DVec2::ZERO, DVec2::Y),
+            (last, DVec2::NEG_X),
+            (last, DVec2::NEG_Y),
+        ] {
+            world = world.with_wall(Wall::new(point, normal, law).map_err(unfit)?);
+        }
+        let snake = Snake::new(body, world).map_err(unfit)?;
+        let scheme = Scheme::Leapfrog;
+        let limit = scheme.step_limit(&snake).unwrap_or(1.0);
+        let dt = self.dt.unwrap_or_else(|| (0.5 * limit).min(0.2));
+        Ok(Scene {
+            name: "fit".to_owned(),
+            title: "a contour fitted to a picture".to_owned(),
+            report: None,
+            note: None,
+            view: View::default(),
+            picture: Some(Arc::new(picture)),
+            field: Some(field),
+            start: State::at_rest(x),
+            snake,
+            plan: Plan {
+                scheme,
+                dt,
+                until: Until::at_rest(
+                    Rest {
+                        speed: 1e-2,
+                        force: 1e-2,
+                        every: 10,
+                    },
+                    self.steps,
+                ),
+                start_rule: Start::SecondOrder,
+                force: false,
+                recording: Recording::default(),
+            },
+        })
+    }
+}
+
+/// One node every four pixels.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to a small positive range first"
+)]
+fn nodes_for(along: f64) -> usize {
+    (along / 4.0).clamp(16.0, 4000.0).round() as usize
+}
+
+/// Spread of the grey levels from the 2nd to the 98th percentile; 1 at least.
+fn contrast(picture: &Picture) -> f64 {
+    let mut levels: Vec<f64> = picture.levels.iter().copied().collect();
+    let n = levels.len();
+    let mut at = |part: usize| {
+        let k = (n - 1) * part / 100;
+        *levels.select_nth_unstable_by(k, f64::total_cmp).1
+    };
+    (at(98) - at(2)).max(1.0)
+}

@@ -1,0 +1,235 @@
+//! What a run leaves behind, and how it is written: JSON Lines and CSV, 17 digits.
+//!
+//! `docs/formats.md` shows both by example.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use glam::DVec2;
+use integrator::State;
+use serde::Serialize;
+use snake::{Energies, Ledger, Outcome, Snake};
+
+use crate::SceneError;
+use crate::scene::{Recording, Scene};
+use crate::write::write_whole;
+
+/// One moment of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// Steps made.
+    pub step: u64,
+    /// Time.
+    pub t: f64,
+    /// The nodes.
+    pub nodes: Vec<DVec2>,
+    /// Their velocities, if kept.
+    pub velocities: Option<Vec<DVec2>>,
+    /// The energies, if kept.
+    pub energies: Option<Energies>,
+}
+
+impl Frame {
+    pub(crate) fn of(
+        snake: &mut Snake,
+        state: &State,
+        keep: &Recording,
+        ledger: Option<&Ledger>,
+    ) -> Self {
+        Self {
+            step: state.step,
+            t: state.t,
+            nodes: state.x.clone(),
+            velocities: keep.velocities.then(|| state.v.clone()),
+            energies: ledger.map(|ledger| ledger.energies(snake, state)),
+        }
+    }
+}
+
+/// A run as it was: what was run, the moments kept, how it ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Record {
+    /// The scene's name.
+    pub scene: String,
+    /// The scene's title.
+    pub title: String,
+    /// The scheme's name.
+    pub scheme: String,
+    /// The step.
+    pub dt: f64,
+    /// Whether the curve is closed.
+    pub closed: bool,
+    /// The moments kept: the start, those asked for, the end.
+    pub frames: Vec<Frame>,
+    /// How it ended.
+    pub outcome: Outcome,
+}
+
+/// The first line of a record in JSON Lines.
+#[derive(Serialize)]
+struct Header<'a> {
+    snake_record: u32,
+    scene: &'a str,
+    title: &'a str,
+    scheme: &'a str,
+    dt: f64,
+    closed: bool,
+    nodes: usize,
+}
+
+#[derive(Serialize)]
+struct Line {
+    step: u64,
+    t: f64,
+    x: Vec<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    v: Option<Vec<[f64; 2]>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    energy: Option<EnergyLine>,
+}
+
+#[derive(Serialize)]
+struct EnergyLine {
+    kinetic: f64,
+    tether: f64,
+    tension: f64,
+    rigidity: f64,
+    gravity: f64,
+    wall: f64,
+    image: f64,
+    total: f64,
+}
+
+#[derive(Serialize)]
+struct Footer {
+    outcome: &'static str,
+    step: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    node: Option<usize>,
+}
+
+impl Record {
+    pub(crate) fn of(scene: &Scene) -> Self {
+        Self {
+            scene: scene.name.clone(),
+            title: scene.title.clone(),
+            scheme: scene.plan.scheme.name().to_owned(),
+            dt: scene.plan.dt,
+            closed: matches!(scene.snake.body().topology, elastic::Topology::Closed),
+            frames: Vec::new(),
+            outcome: Outcome::Finished { step: 0 },
+        }
+    }
+
+    /// The last moment kept; the start when nothing else was.
+    #[must_use]
+    pub fn last(&self) -> Option<&Frame> {
+        self.frames.last()
+    }
+
+    /// The record as JSON Lines: a header, one line a kept moment, the outcome.
+    ///
+    /// # Errors
+    ///
+    /// None in practice: a frame holds finite numbers only.
+    pub fn to_json_lines(&self) -> Result<String, SceneError> {
+        let pairs = |list: &[DVec2]| list.iter().map(|p| p.to_array()).collect();
+        let mut text = String::new();
+        let mut push = |line: Result<String, serde_json::Error>| match line {
+            Ok(line) => {
+                text.push_str(&line);
+                text.push('\n');
+                Ok(())
+            }
+            Err(error) => Err(SceneError::key("record", error)),
+        };
+        push(serde_json::to_string(&Header {
+            snake_record: 1,
+            scene: &self.scene,
+            title: &self.title,
+            scheme: &self.scheme,
+            dt: self.dt,
+            closed: self.closed,
+            nodes: self.frames.first().map_or(0, |f| f.nodes.len()),
+        }))?;
+        for frame in &self.frames {
+            push(serde_json::to_string(&Line {
+                step: frame.step,
+                t: frame.t,
+                x: pairs(&frame.nodes),
+                v: frame.velocities.as_deref().map(pairs),
+                energy: frame.energies.map(|e| EnergyLine {
+                    kinetic: e.kinetic,
+                    tether: e.tether,
+                    tension: e.tension,
+                    rigidity: e.rigidity,
+                    gravity: e.gravity,
+                    wall: e.wall,
+                    image: e.image,
+                    total: e.total(),
+                }),
+            }))?;
+        }
+        let (outcome, node) = match self.outcome {
+            Outcome::Finished { .. } => ("finished", None),
+            Outcome::Settled { .. } => ("settled", None),
+            Outcome::Stopped { .. } => ("stopped", None),
+            Outcome::Diverged { node, .. } => ("diverged", Some(node)),
+            Outcome::LeftField { node, .. } => ("left-field", Some(node)),
+        };
+        push(serde_json::to_string(&Footer {
+            outcome,
+            step: self.outcome.step(),
+            node,
+        }))?;
+        Ok(text)
+    }
+
+    /// The record as CSV: one line a node and kept moment, energies repeated on each of its lines.
+    #[must_use]
+    pub fn to_csv(&self) -> String {
+        let velocities = self.frames.iter().any(|f| f.velocities.is_some());
+        let energies = self.frames.iter().any(|f| f.energies.is_some());
+        let mut text = String::from("step,t,node,x,y");
+        if velocities {
+            text.push_str(",vx,vy");
+        }
+        if energies {
+            for name in Energies::NAMES {
+                let _ = write!(text, ",{name}");
+            }
+        }
+        text.push('\n');
+        for frame in &self.frames {
+            for (i, p) in frame.nodes.iter().enumerate() {
+                let _ = write!(text, "{},{},{i},{},{}", frame.step, frame.t, p.x, p.y);
+                if let Some(v) = &frame.velocities {
+                    let _ = write!(text, ",{},{}", v[i].x, v[i].y);
+                }
+                if let Some(e) = &frame.energies {
+                    for value in e.values() {
+                        let _ = write!(text, ",{value}");
+                    }
+                }
+                text.push('\n');
+            }
+        }
+        text
+    }
+
+    /// Write the record, whole or not at all: CSV if the name ends in `.csv`, else JSON Lines.
+    ///
+    /// # Errors
+    ///
+    /// A folder that is not there or cannot be written.
+    pub fn save(&self, path: &Path) -> Result<(), SceneError> {
+        if path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("csv"))
+        {
+            write_whole(path, self.to_csv().as_bytes())
+        } else {
+            write_whole(path, self.to_json_lines()?.as_bytes())
+        }
+    }
+}

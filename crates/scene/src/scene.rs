@@ -1,0 +1,187 @@
+//! A situation ready to run: a snake, its start, and the plan of the run.
+
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::Arc;
+
+use field::ForceField;
+use glam::DVec2;
+use integrator::{Scheme, SchemeError, Start, State};
+use snake::{Ledger, Outcome, Snake, Until};
+
+use crate::record::{Frame, Record};
+use crate::{Picture, SceneError, build, catalogue, file};
+
+/// How a drawing should look at a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct View {
+    /// Whether y grows upwards on the page (chapter 2) or downwards (pictures).
+    pub y_up: bool,
+    /// The corners of what should be seen; everything when not given.
+    pub window: Option<(DVec2, DVec2)>,
+}
+
+/// What a run keeps.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Recording {
+    /// Every so many steps, counted from 0.
+    pub every: Option<u64>,
+    /// And at these steps.
+    pub steps: Vec<u64>,
+    /// Keep velocities too.
+    pub velocities: bool,
+    /// Keep energies too.
+    pub energies: bool,
+}
+
+impl Recording {
+    fn keeps(&self, step: u64) -> bool {
+        self.every.is_some_and(|every| step.is_multiple_of(every)) || self.steps.contains(&step)
+    }
+}
+
+/// How to run a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Which scheme.
+    pub scheme: Scheme,
+    /// The step. T.
+    pub dt: f64,
+    /// When to stop.
+    pub until: Until,
+    /// How the first step is begun (D19).
+    pub start_rule: Start,
+    /// Whether a step beyond the limit is made all the same.
+    pub force: bool,
+    /// What to keep.
+    pub recording: Recording,
+}
+
+/// A situation: what the text of a scene describes.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// The name it is called by.
+    pub name: String,
+    /// One line for people.
+    pub title: String,
+    /// Where in the report it belongs.
+    pub report: Option<String>,
+    /// More words for people.
+    pub note: Option<String>,
+    /// How to look at it.
+    pub view: View,
+    /// The picture it lives in.
+    pub picture: Option<Arc<Picture>>,
+    /// That picture's force field.
+    pub field: Option<Arc<ForceField>>,
+    /// The snake.
+    pub snake: Snake,
+    /// Where it starts, and how fast.
+    pub start: State,
+    /// How to run it.
+    pub plan: Plan,
+}
+
+impl Scene {
+    /// A scene that comes with the program.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::UnknownScene`] with the nearest name.
+    pub fn named(name: &str) -> Result<Self, SceneError> {
+        Self::parse(name, catalogue::text(name)?, Path::new("."))
+    }
+
+    /// A scene from a file.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be read, or whatever [`Scene::parse`] refuses, by the file's name.
+    pub fn load(path: &Path) -> Result<Self, SceneError> {
+        let bytes = std::fs::read(path).map_err(|error| SceneError::file(path, error))?;
+        let text = String::from_utf8(bytes)
+            .map_err(|_| SceneError::file(path, "not text; a scene in TOML would do"))?;
+        let name = path
+            .file_stem()
+            .map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+        let folder = path.parent().unwrap_or_else(|| Path::new("."));
+        Self::parse(&name, &text, folder).map_err(|error| SceneError::file(path, error))
+    }
+
+    /// A scene from text; files that it names are looked for in `folder`.
+    ///
+    /// # Errors
+    ///
+    /// Text that is no TOML, an unknown key (with the nearest known one), a missing key, a value
+    /// that will not do: each by its key or line.
+    pub fn parse(name: &str, text: &str, folder: &Path) -> Result<Self, SceneError> {
+        build::build(name, &file::parse(text)?, folder)
+    }
+
+    /// Largest stable step of the scene's scheme, picture left out (errata §7); `None` if any is.
+    #[must_use]
+    pub fn step_limit(&self) -> Option<f64> {
+        self.plan.scheme.step_limit(&self.snake)
+    }
+
+    /// Run it from the start, showing every step to `observer`.
+    ///
+    /// # Errors
+    ///
+    /// A step that the scheme refuses, or one beyond the limit unless the plan forces it; a start
+    /// at which a force cannot be evaluated.
+    pub fn run(
+        &mut self,
+        observer: &mut dyn FnMut(&State) -> ControlFlow<()>,
+    ) -> Result<Record, SceneError> {
+        let plan = self.plan.clone();
+        let refuse = |error: SchemeError| SceneError::Step(error.to_string());
+        plan.scheme
+            .check(&self.snake, plan.dt, plan.force)
+            .map_err(refuse)?;
+        let mut state = self.start.clone();
+        let mut stepper = plan
+            .scheme
+            .start(&mut self.snake, &state, plan.dt, plan.start_rule)
+            .map_err(refuse)?;
+        let keep = &plan.recording;
+        let mut ledger = if keep.energies {
+            let begun = Ledger::begin(&self.snake, &state);
+            Some(begun.map_err(|fault| SceneError::key("snake.start", fault))?)
+        } else {
+            None
+        };
+        let mut record = Record::of(self);
+        record
+            .frames
+            .push(Frame::of(&mut self.snake, &state, keep, ledger.as_ref()));
+        let frames = &mut record.frames;
+        let outcome = snake::run(
+            &mut self.snake,
+            &mut *stepper,
+            &mut state,
+            &plan.until,
+            &mut |snake, state| {
+                // a place without force ends the run at the next step, with its own outcome
+                if let Some(ledger) = &mut ledger {
+                    let _ = ledger.book(snake, state);
+                }
+                if keep.keeps(state.step) {
+                    frames.push(Frame::of(snake, state, keep, ledger.as_ref()));
+                }
+                observer(state)
+            },
+        );
+        let last = record
+            .frames
+            .last()
+            .is_some_and(|frame| frame.step == state.step);
+        if !last && !matches!(outcome, Outcome::Diverged { .. }) {
+            record
+                .frames
+                .push(Frame::of(&mut self.snake, &state, keep, ledger.as_ref()));
+        }
+        record.outcome = outcome;
+        Ok(record)
+    }
+}

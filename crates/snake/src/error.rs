@@ -1,0 +1,55 @@
+//! What can be wrong with a snake or its world.
+
+use elastic::ElasticError;
+
+/// A value that no snake can be made of.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SnakeError {
+    /// The curve or its material.
+    #[error(transparent)]
+    Elastic(#[from] ElasticError),
+    /// A number that must be finite, or at least something, is not.
+    #[error("{name} must be finite and {bound}, got {value}")]
+    BadNumber {
+        /// The user's word for it.
+        name: &'static str,
+        /// What would do.
+        bound: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// A wall whose normal has no direction.
+    #[error("a wall needs a normal of nonzero length, got ({x}, {y})")]
+    NoNormal {
+        /// x of the normal given.
+        x: f64,
+        /// y of the normal given.
+        y: f64,
+    },
+    /// A schedule without times in ascending order.
+    #[error("the times of a schedule must ascend, but entry {index} is at {time}")]
+    BadSchedule {
+        /// Index of the first entry out of order.
+        index: usize,
+        /// Its time.
+        time: f64,
+    },
+    /// The mass-weighted center needs some mass.
+    #[error("the center of mass needs some mass, but mass is 0 everywhere")]
+    NoMass,
+}
+
+/// `value`, or an error that names it.
+pub(crate) fn finite_at_least(
+    name: &'static str,
+    least: f64,
+    bound: &'static str,
+    value: f64,
+) -> Result<f64, SnakeError> {
+    if value.is_finite() && value >= least {
+        Ok(value)
+    } else {
+        Err(SnakeError::BadNumber { name, bound, value })
+    }
+}

@@ -1,0 +1,144 @@
+//! Parameters that change with time: report §3.4.1 wishes for them, "allow these parameters to
+//! change values through time" being left undone there.
+
+use crate::SnakeError;
+
+/// A factor as a function of time: straight lines between given points, constant beyond them.
+///
+/// Times and factors are numbers without further meaning; a schedule multiplies the profile it
+/// belongs to, so that a parameter is `profile(s) · factor(t)`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Schedule {
+    points: Vec<(f64, f64)>,
+}
+
+impl Schedule {
+    /// A schedule through `(time, factor)` points, times ascending.
+    ///
+    /// # Errors
+    ///
+    /// Refused: no point, a time that does not ascend, a number that is not finite, a negative factor.
+    pub fn new(points: Vec<(f64, f64)>) -> Result<Self, SnakeError> {
+        if points.is_empty() {
+            return Err(SnakeError::BadSchedule {
+                index: 0,
+                time: f64::NAN,
+            });
+        }
+        for (index, &(time, factor)) in points.iter().enumerate() {
+            let ascends = index == 0 || time > points[index - 1].0;
+            if !time.is_finite() || !ascends {
+                return Err(SnakeError::BadSchedule { index, time });
+            }
+            crate::error::finite_at_least("a schedule's factor", 0.0, "at least 0", factor)?;
+        }
+        Ok(Self { points })
+    }
+
+    /// The factor at time `t`.
+    #[must_use]
+    pub fn at(&self, t: f64) -> f64 {
+        let after = self.points.partition_point(|&(time, _)| time <= t);
+        match (
+            after.checked_sub(1).map(|i| self.points[i]),
+            self.points.get(after),
+        ) {
+            (Some((t0, f0)), Some(&(t1, f1))) => f0 + (f1 - f0) * ((t - t0) / (t1 - t0)),
+            (Some((_, factor)), None) | (None, Some(&(_, factor))) => factor,
+            (None, None) => 1.0,
+        }
+    }
+
+    /// The largest factor at any time: what a step limit must be ready for.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.points
+            .iter()
+            .map(|&(_, factor)| factor)
+            .fold(0.0, f64::max)
+    }
+
+    /// Whether the factor is the same at all times.
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
+        self.points
+            .windows(2)
+            .all(|w| (w[0].1 - w[1].1).abs() == 0.0)
+    }
+}
+
+/// One optional schedule for each parameter of the motion.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Schedules {
+    /// Factor of ω₀.
+    pub tether: Option<Schedule>,
+    /// Factor of ω₁.
+    pub tension: Option<Schedule>,
+    /// Factor of ω₂.
+    pub rigidity: Option<Schedule>,
+    /// Factor of μ.
+    pub mass: Option<Schedule>,
+    /// Factor of γ.
+    pub damping: Option<Schedule>,
+}
+
+impl Schedules {
+    /// Whether nothing changes with time.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The five factors at time `t`, in the order tether, tension, rigidity, mass, damping.
+    #[must_use]
+    pub fn at(&self, t: f64) -> [f64; 5] {
+        self.all().map(|schedule| schedule.map_or(1.0, |s| s.at(t)))
+    }
+
+    /// The five largest factors, in the same order.
+    #[must_use]
+    pub fn largest(&self) -> [f64; 5] {
+        self.all()
+            .map(|schedule| schedule.map_or(1.0, Schedule::largest))
+    }
+
+    fn all(&self) -> [Option<&Schedule>; 5] {
+        [
+            &self.tether,
+            &self.tension,
+            &self.rigidity,
+            &self.mass,
+            &self.damping,
+        ]
+        .map(Option::as_ref)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_schedule_is_straight_between_its_points_and_constant_beyond() {
+        let schedule = Schedule::new(vec![(1.0, 2.0), (3.0, 6.0)]).unwrap();
+        for (t, factor) in [(0.0, 2.0), (1.0, 2.0), (2.0, 4.0), (3.0, 6.0), (9.0, 6.0)] {
+            assert!((schedule.at(t) - factor).abs() < 1e-15, "at {t}");
+        }
+        assert!((schedule.largest() - 6.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn times_that_do_not_ascend_are_refused_with_their_place() {
+        let error = Schedule::new(vec![(0.0, 1.0), (0.0, 2.0)]).unwrap_err();
+        assert_eq!(
+            error,
+            SnakeError::BadSchedule {
+                index: 1,
+                time: 0.0
+            }
+        );
+        assert!(Schedule::new(vec![(0.0, -1.0)]).is_err());
+        assert!(Schedule::new(vec![(f64::NAN, 1.0)]).is_err());
+        assert!(Schedule::new(vec![]).is_err());
+    }
+}
