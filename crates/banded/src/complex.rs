@@ -238,7 +238,7 @@ impl ComplexFactor {
             row,
             reciprocal_condition,
             backward_error,
-        } = weakest(&twisted, &diagonals);
+        } = weakest(a.len(), |x| twisted.solve(x), |i, x| diagonals.row(i, x));
         if reciprocal_condition < crate::weakest::SINGULAR {
             return Err(BandedError::Singular {
                 row,

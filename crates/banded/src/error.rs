@@ -55,7 +55,7 @@ pub enum BandedError {
         /// The lane, from 0.
         lane: usize,
         /// What is wrong there.
-        problem: Box<BandedError>,
+        problem: Box<Self>,
     },
     /// A complex matrix that cannot be eliminated in order without losing digits.
     #[error(
@@ -74,6 +74,9 @@ pub enum BandedError {
         /// The column, from 0.
         column: usize,
     },
+    /// A matrix whose rows are not all the same, or whose band does not wrap round.
+    #[error("the matrix is not circulant: its band must wrap round and its rows be the same")]
+    NotCirculant,
     /// A correction that takes all resistance from some direction.
     #[error("column {column} of the correction makes the matrix singular")]
     SingularCorrection {

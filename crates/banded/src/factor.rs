@@ -39,7 +39,7 @@ impl Factor {
             row,
             reciprocal_condition,
             ..
-        } = weakest(&twisted, &diagonals);
+        } = weakest(a.len(), |x| twisted.solve(x), |i, x| diagonals.row(i, x));
         if reciprocal_condition < SINGULAR {
             return Err(BandedError::Singular {
                 row,

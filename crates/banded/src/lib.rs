@@ -24,6 +24,7 @@
 //! there is a curve.
 
 mod chain;
+mod circulant;
 mod complex;
 mod dense;
 mod error;
@@ -36,7 +37,9 @@ mod scalar;
 mod spectrum;
 mod twisted;
 mod weakest;
+mod wide;
 
+pub use circulant::Circulant;
 pub use complex::{Complex, ComplexFactor, ComplexPoint};
 pub use dense::{Dense, Eigen};
 pub use error::BandedError;
@@ -45,6 +48,7 @@ pub use lanes::{LaneFactor, LanePoint, Lanes};
 pub use matrix::Pentadiagonal;
 pub use operator::{ComplexOperatorFactor, Operator, OperatorFactor};
 pub use spectrum::{largest_eigenvalue, smallest_eigenvalue};
+pub use wide::{Banded, BandedFactor};
 
 #[cfg(test)]
 mod tests;

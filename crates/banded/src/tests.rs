@@ -1,5 +1,10 @@
 //! Laws of the band, the factor and the operator, against the dense twin.
 
+mod circulant;
+mod complex;
+mod lanes;
+mod wide;
+
 use glam::DVec2;
 use proptest::prelude::*;
 
