@@ -3,10 +3,13 @@
 //! A system says where a node that met something is put and how fast it leaves. Putting it there
 //! costs or yields energy: it is moved against or along the forces on it. What comes out must not be
 //! more than what went in, so the velocity that leads away from the obstacle is lowered by what the
-//! move has yielded. A stiff neighbour is not warned: contacts are met at the ends of steps only.
+//! move has yielded. In an implicit step the untouched nodes follow: the step is solved again with the
+//! touched ones where they must be, or else a stiff body would be torn at every contact. Contacts are
+//! met at the ends of steps only.
 
 use glam::DVec2;
 
+use crate::solver::Solver;
 use crate::{Fault, State, System, Touch, stepper};
 
 /// The end of a step.
@@ -25,7 +28,7 @@ pub(crate) struct Moment {
 pub(crate) struct Contacts {
     /// The touches of the last step.
     pub(crate) touches: Vec<Touch>,
-    /// How far the touched nodes were moved; zero for all others.
+    /// How far the touched nodes were moved, and those that followed.
     shift: Vec<DVec2>,
     force: Vec<DVec2>,
     product: Vec<DVec2>,
@@ -70,6 +73,19 @@ impl Contacts {
         x: &mut [DVec2],
         v: &mut [DVec2],
     ) -> Result<bool, Fault> {
+        self.meet_with(system, moment, before, x, v, None)
+    }
+
+    /// The same in an implicit step, whose other nodes follow the touched ones.
+    pub(crate) fn meet_with(
+        &mut self,
+        system: &mut dyn System,
+        moment: Moment,
+        before: &[DVec2],
+        x: &mut [DVec2],
+        v: &mut [DVec2],
+        solver: Option<&mut Solver>,
+    ) -> Result<bool, Fault> {
         let Moment { t, dt, lag } = moment;
         if !self.find(system, dt, before, x, v) {
             return Ok(false);
@@ -79,8 +95,19 @@ impl Contacts {
         for touch in &self.touches {
             let i = touch.node;
             self.shift[i] = touch.position - x[i];
-            x[i] = touch.position;
             leaves |= touch.velocity.is_some_and(|v| v.dot(self.shift[i]) > 0.0);
+        }
+        if let Some(solver) = solver {
+            solver.follow(&self.touches, &mut self.shift);
+            for (i, &shift) in self.shift.iter().enumerate() {
+                x[i] += shift;
+                if !solver.touches(i) {
+                    v[i] += shift / dt;
+                }
+            }
+        }
+        for touch in &self.touches {
+            x[touch.node] = touch.position;
         }
         if leaves {
             stepper::force(system, t, x, v, &mut self.force)?;

@@ -25,18 +25,31 @@
 //! ```
 
 mod contact;
+mod dormand_prince;
 mod error;
+mod euler;
 mod leapfrog;
 mod limits;
+mod newmark;
+mod oscillator;
 pub mod problems;
+mod region;
 mod report;
+mod rk4;
+mod sbdf2;
 mod scheme;
+mod solver;
 mod stepper;
 mod system;
 
+#[cfg(test)]
+mod tests;
+
 pub use contact::kinetic_energy;
+pub use dormand_prince::DormandPrince;
 pub use error::SchemeError;
 pub use limits::{critical_damping, report_critical_damping};
+pub use region::Mode;
 pub use report::report_steps;
 pub use scheme::Scheme;
 pub use stepper::{Start, Stepper};

@@ -7,7 +7,7 @@
 
 use banded::{Dense, Operator, Pentadiagonal};
 
-use crate::System;
+use crate::{Mode, Scheme, System};
 
 /// Critical damping of a mode, 2 √(μ λ): rest without overshoot, as soon as possible.
 ///
@@ -184,3 +184,85 @@ fn keeps_sign(a: &Operator, scale: f64, band: &Pentadiagonal) -> bool {
         .eigen()
         .is_ok_and(|eigen| eigen.values.iter().all(|&v| v > 0.0))
 }
+
+/// The largest step with which no mode grows, whatever mode the system may have.
+///
+/// A mode's stiffness, damping and contact over its mass lie between the least and the largest there
+/// are (Rayleigh's quotients), so a grid over that box stands for all of them: exact for uniform mass
+/// and damping but for the grid, on the safe side otherwise. Schemes that take the elastic force at
+/// the end of the step are only limited by contacts.
+pub(crate) fn by_modes(scheme: Scheme, system: &dyn System) -> Option<f64> {
+    let loads = Loads::new(system);
+    let contact = system.contact_stiffness();
+    if matches!(scheme, Scheme::DormandPrince { .. }) {
+        return None;
+    }
+    let explicit = scheme == Scheme::Rk4;
+    if !explicit && contact == (0.0, 0.0) {
+        return None;
+    }
+    let least = loads
+        .mass
+        .iter()
+        .fold(f64::INFINITY, |least, &m| least.min(m));
+    let massless = scheme == Scheme::GradientFlow || least <= 0.0;
+    // per mass, or per damping where nothing has mass
+    let weight = |i: usize| {
+        if massless {
+            loads.damping[i]
+        } else {
+            loads.mass[i]
+        }
+    };
+    let n = loads.mass.len();
+    let free: Vec<usize> = (0..n).filter(|&i| !system.held()[i]).collect();
+    let ends = |value: &dyn Fn(usize) -> f64| {
+        let each = free.iter().map(|&i| value(i) / weight(i));
+        each.fold((f64::INFINITY, 0.0_f64), |(low, high), v| {
+            (low.min(v), high.max(v))
+        })
+    };
+    let (slow, fast) = ends(&|i| loads.damping[i]);
+    let (_, slope) = ends(&|i| loads.contact[i]);
+    let (_, drag) = ends(&|i| loads.contact_damping[i]);
+    let weights: Vec<f64> = (0..n)
+        .map(|i| if system.held()[i] { 1.0 } else { weight(i) })
+        .collect();
+    let stiffest = if system.stiffness().columns().is_empty() {
+        banded::largest_eigenvalue(system.stiffness().band(), &weights)
+    } else {
+        // 4 W − dt² A turns indefinite at dt² = 4 / λ
+        let quadruple: Vec<f64> = weights.iter().map(|w| 4.0 * w).collect();
+        largest(|dt| positive(system.stiffness(), -dt * dt, &quadruple))
+            .map_or(0.0, |dt| 4.0 / (dt * dt))
+    };
+    if free.is_empty() || !stiffest.is_finite() {
+        return None;
+    }
+    let share = |k: u32, of: u32| f64::from(k) / f64::from(of);
+    largest(|dt| {
+        (0..=GRID).all(|i| {
+            // close together at the stiff end, where the border is
+            let stiffness = stiffest * (1.0 - share(i, GRID).powi(2));
+            (0..=4).all(|j| {
+                let damping = slow + (fast - slow) * share(j, 4);
+                (0..=4).all(|k| {
+                    let mode = Mode {
+                        mass: 1.0,
+                        damping: if massless { 1.0 } else { damping },
+                        stiffness,
+                        slope: slope * share(k, 4),
+                        drag: drag * share(k, 4),
+                    };
+                    scheme.growth(mode, dt) <= 1.0 + MARGINAL
+                })
+            })
+        })
+    })
+}
+
+/// Stiffnesses tried between the largest and zero.
+const GRID: u32 = 64;
+
+/// Growth a step that rounding in the roots of a polynomial can feign: double roots at 1.
+const MARGINAL: f64 = 1e-6;

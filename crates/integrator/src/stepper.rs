@@ -83,6 +83,29 @@ pub(crate) fn force(
     system.external(t, x, v, force)
 }
 
+/// External force alone, zero at held nodes.
+pub(crate) fn external(
+    system: &mut dyn System,
+    t: f64,
+    x: &[DVec2],
+    v: &[DVec2],
+    force: &mut [DVec2],
+) -> Result<(), Fault> {
+    force.fill(DVec2::ZERO);
+    system.external(t, x, v, force)?;
+    release(system.held(), force);
+    Ok(())
+}
+
+/// Zero what held nodes got.
+pub(crate) fn release(held: &[bool], values: &mut [DVec2]) {
+    for (value, &held) in values.iter_mut().zip(held) {
+        if held {
+            *value = DVec2::ZERO;
+        }
+    }
+}
+
 /// Refuse positions that are not finite any more.
 pub(crate) fn finite(x: &[DVec2]) -> Result<(), Fault> {
     let mut all = true;

@@ -32,6 +32,14 @@ impl State {
         }
     }
 
+    /// Become the same as `other`, in the same memory.
+    pub(crate) fn copy(&mut self, other: &Self) {
+        self.t = other.t;
+        self.step = other.step;
+        self.x.clone_from(&other.x);
+        self.v.clone_from(&other.v);
+    }
+
     /// Number of nodes.
     #[must_use]
     pub fn len(&self) -> usize {

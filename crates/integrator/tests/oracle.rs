@@ -1,5 +1,13 @@
 //! The report's program, run in Octave, against ours.
 
+#![allow(clippy::unwrap_used, reason = "a test may stop")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_sign_loss,
+    reason = "small counts"
+)]
+
 use banded::{Operator, Pentadiagonal};
 use integrator::problems::{Springs, damped_spring};
 use integrator::{Scheme, Start};

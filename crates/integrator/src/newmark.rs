@@ -1,0 +1,277 @@
+//! Newmark's method and the family it belongs to.
+
+use glam::DVec2;
+
+use crate::contact::{Contacts, Moment};
+use crate::solver::Solver;
+use crate::stepper::{self, Clock, Mass};
+use crate::{Fault, SchemeError, State, Stepper, System};
+
+/// Generalized-α: Newmark's method with as much damping of the highest frequencies as is asked for.
+///
+/// ```text
+/// μ a(t + (1 − αm) dt) + γ v(t + (1 − αf) dt) = elastic + f   at t + (1 − αf) dt
+/// x⁺ = x + dt v + dt² ((½ − β) a + β a⁺),   v⁺ = v + dt ((1 − g) a + g a⁺)
+/// αm = (2ρ − 1)/(ρ + 1),   αf = ρ/(ρ + 1),   g = ½ − αm + αf,   β = ¼ (1 − αm + αf)²
+/// ```
+///
+/// The fastest motions are multiplied by ρ (ρ∞ in the paper) each step: ρ = 1 keeps them, ρ = 0 removes them at
+/// once. The external force is taken once, at `x + (1 − αf) dt v`.
+///
+/// [chung93].
+#[derive(Debug)]
+pub(crate) struct GeneralizedAlpha {
+    weights: Weights,
+    clock: Clock,
+    solver: Solver,
+    /// Whether `a` holds the acceleration at the state.
+    ready: bool,
+    a: Vec<DVec2>,
+    force: Vec<DVec2>,
+    external: Vec<DVec2>,
+    next_x: Vec<DVec2>,
+    next_v: Vec<DVec2>,
+    contacts: Contacts,
+}
+
+/// αm, αf, g and β.
+#[derive(Debug, Clone, Copy)]
+struct Weights {
+    m: f64,
+    f: f64,
+    g: f64,
+    b: f64,
+}
+
+impl Weights {
+    fn new(rho: f64) -> Self {
+        let m = (2.0 * rho - 1.0) / (rho + 1.0);
+        let f = rho / (rho + 1.0);
+        Self {
+            m,
+            f,
+            g: 0.5 - m + f,
+            b: 0.25 * (1.0 - m + f) * (1.0 - m + f),
+        }
+    }
+}
+
+impl GeneralizedAlpha {
+    pub(crate) const NAME: &'static str = "generalized-alpha";
+
+    pub(crate) fn new(
+        system: &mut dyn System,
+        state: &State,
+        dt: f64,
+        rho: f64,
+    ) -> Result<Self, SchemeError> {
+        if !(0.0..=1.0).contains(&rho) {
+            let (scheme, name, range) = (Self::NAME, "damping at infinity", "between 0 and 1");
+            return Err(SchemeError::BadParameter {
+                scheme,
+                name,
+                range,
+                value: rho,
+            });
+        }
+        system.advance(state.t);
+        stepper::check(Self::NAME, system, state, dt, Mass::Needed)?;
+        let weights = Weights::new(rho);
+        let Weights { m, f, g, b } = weights;
+        let p = (1.0 - m) / ((1.0 - f) * b * dt * dt);
+        let zeros = || vec![DVec2::ZERO; state.len()];
+        Ok(Self {
+            weights,
+            clock: Clock::new(state, dt),
+            solver: Solver::new(Self::NAME, Mass::Needed, system, (p, g / (b * dt)))?,
+            ready: false,
+            a: zeros(),
+            force: zeros(),
+            external: zeros(),
+            next_x: zeros(),
+            next_v: zeros(),
+            contacts: Contacts::new(state.len()),
+        })
+    }
+
+    fn accelerate(&mut self, system: &mut dyn System, state: &State) -> Result<(), Fault> {
+        stepper::external(
+            system,
+            self.clock.now(),
+            &state.x,
+            &state.v,
+            &mut self.external,
+        )?;
+        for i in 0..state.len() {
+            let drag = system.damping()[i] * state.v[i];
+            self.a[i] = if system.held()[i] {
+                DVec2::ZERO
+            } else {
+                (self.force[i] + self.external[i] - drag) / system.mass()[i]
+            };
+        }
+        self.ready = true;
+        Ok(())
+    }
+}
+
+impl Stepper for GeneralizedAlpha {
+    fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
+        let (dt, t) = (self.clock.dt, self.clock.now());
+        let Weights { m, f, g, b } = self.weights;
+        self.solver.advance(system, t, &state.x)?;
+        system.elastic(&state.x, &mut self.force);
+        if !self.ready {
+            self.accelerate(system, state)?;
+        }
+        let reach = (1.0 - f) * dt;
+        for i in 0..state.len() {
+            self.next_x[i] = state.x[i]
+                + if system.held()[i] {
+                    DVec2::ZERO
+                } else {
+                    reach * state.v[i]
+                };
+        }
+        stepper::external(
+            system,
+            t + reach,
+            &self.next_x,
+            &state.v,
+            &mut self.external,
+        )?;
+        let (mass, damping) = (system.mass(), system.damping());
+        for i in 0..state.len() {
+            let (v, a) = (state.v[i], self.a[i]);
+            let inertia = (1.0 - m) * (v / (b * dt) + (0.5 - b) / b * a) - m * a;
+            let drag = (1.0 - f) * ((1.0 - g / b) * v + dt * (1.0 - 0.5 * g / b) * a) + f * v;
+            let sum = self.force[i] + self.external[i] + mass[i] * inertia - damping[i] * drag;
+            self.force[i] = sum / (1.0 - f);
+        }
+        stepper::release(system.held(), &mut self.force);
+        self.solver.solve(&mut self.force);
+        for i in 0..state.len() {
+            let (v, a, step) = (state.v[i], self.a[i], self.force[i]);
+            let held = system.held()[i];
+            self.next_x[i] = state.x[i] + step;
+            let later = (step - dt * v) / (b * dt * dt) - (0.5 - b) / b * a;
+            self.external[i] = if held { DVec2::ZERO } else { later };
+            let fast = v + dt * ((1.0 - g) * a + g * later);
+            self.next_v[i] = if held { DVec2::ZERO } else { fast };
+        }
+        stepper::finite(&self.next_x)?;
+        let moment = Moment {
+            t: t + dt,
+            dt,
+            lag: 0.0,
+        };
+        let (x, v) = (&mut self.next_x, &mut self.next_v);
+        if self
+            .contacts
+            .meet_with(system, moment, &state.x, x, v, Some(&mut self.solver))?
+        {
+            for touch in &self.contacts.touches {
+                // what it stands on carries it
+                self.external[touch.node] = DVec2::ZERO;
+            }
+        }
+        std::mem::swap(&mut self.a, &mut self.external);
+        std::mem::swap(&mut state.x, x);
+        std::mem::swap(&mut state.v, v);
+        self.clock.tick(state);
+        Ok(())
+    }
+
+    fn dt(&self) -> f64 {
+        self.clock.dt
+    }
+}
+
+/// Newmark's method with β = ¼: the mean of the accelerations, the trapezoidal rule.
+///
+/// ```text
+/// (4μ/dt² + 2γ/dt + A) δ = 2 (elastic(x) + f) + 4 μ v / dt,   v⁺ = 2 δ / dt − v
+/// ```
+///
+/// `f` is taken once, in the middle: at `t + dt/2` and `x + dt v / 2`. A mode with stiffness λ and an
+/// external slope κ then has a step of determinant 1 whatever λ is, and is stable while `κ dt² < 4 μ`:
+/// nothing is lost but what the damping takes. Forces that depend on velocity see the one at
+/// the start of the step, which costs them an order.
+///
+/// [newmark59].
+#[derive(Debug)]
+pub(crate) struct Newmark {
+    clock: Clock,
+    solver: Solver,
+    force: Vec<DVec2>,
+    external: Vec<DVec2>,
+    next_x: Vec<DVec2>,
+    next_v: Vec<DVec2>,
+    contacts: Contacts,
+}
+
+impl Newmark {
+    pub(crate) const NAME: &'static str = "newmark";
+
+    pub(crate) fn new(
+        system: &mut dyn System,
+        state: &State,
+        dt: f64,
+    ) -> Result<Self, SchemeError> {
+        system.advance(state.t);
+        stepper::check(Self::NAME, system, state, dt, Mass::Needed)?;
+        let weights = (4.0 / (dt * dt), 2.0 / dt);
+        let zeros = || vec![DVec2::ZERO; state.len()];
+        Ok(Self {
+            clock: Clock::new(state, dt),
+            solver: Solver::new(Self::NAME, Mass::Needed, system, weights)?,
+            force: zeros(),
+            external: zeros(),
+            next_x: zeros(),
+            next_v: zeros(),
+            contacts: Contacts::new(state.len()),
+        })
+    }
+}
+
+impl Stepper for Newmark {
+    fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
+        let (dt, t) = (self.clock.dt, self.clock.now());
+        self.solver.advance(system, t + 0.5 * dt, &state.x)?;
+        system.elastic(&state.x, &mut self.force);
+        for i in 0..state.len() {
+            let held = system.held()[i];
+            self.next_v[i] = if held { DVec2::ZERO } else { state.v[i] };
+            self.next_x[i] = state.x[i] + 0.5 * dt * self.next_v[i];
+        }
+        let (x, v) = (&mut self.next_x, &mut self.next_v);
+        stepper::external(system, t + 0.5 * dt, x, v, &mut self.external)?;
+        let mass = system.mass();
+        for i in 0..state.len() {
+            let push = self.force[i] + self.external[i];
+            self.force[i] = 2.0 * push + 4.0 / dt * mass[i] * v[i];
+        }
+        stepper::release(system.held(), &mut self.force);
+        self.solver.solve(&mut self.force);
+        for i in 0..state.len() {
+            x[i] = state.x[i] + self.force[i];
+            v[i] = 2.0 / dt * self.force[i] - v[i];
+        }
+        stepper::finite(x)?;
+        let moment = Moment {
+            t: t + dt,
+            dt,
+            lag: 0.0,
+        };
+        self.contacts
+            .meet_with(system, moment, &state.x, x, v, Some(&mut self.solver))?;
+        std::mem::swap(&mut state.x, x);
+        std::mem::swap(&mut state.v, v);
+        self.clock.tick(state);
+        Ok(())
+    }
+
+    fn dt(&self) -> f64 {
+        self.clock.dt
+    }
+}

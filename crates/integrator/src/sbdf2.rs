@@ -1,0 +1,147 @@
+//! The workhorse: two steps back, one solve, strong damping of what is too fast to follow.
+
+use glam::DVec2;
+
+use crate::contact::{Contacts, Moment};
+use crate::solver::Solver;
+use crate::stepper::{self, Clock, Mass};
+use crate::{Fault, SchemeError, State, Stepper, System};
+
+/// Backward differences of order 2, with the external force extrapolated.
+///
+/// ```text
+/// v⁺ = (3 x⁺ − 4 x + x₋) / (2 dt)
+/// μ (3 v⁺ − 4 v + v₋) / (2 dt) + γ v⁺ = elastic(x⁺) + 2 f − f₋
+/// (9μ/(4dt²) + 3γ/(2dt) + A) δ = elastic(x) + 2 f − f₋ + μ (3 d/(4dt²) + (4v − v₋)/(2dt)) + γ d/(2dt)
+/// ```
+///
+/// with `δ = x⁺ − x` and `d = x − x₋`, which keeps what `x` and `x₋` would lose to rounding. The first
+/// step is Euler's, whose single error of order dt² costs no order. Does without mass where there
+/// is damping. A node that touched something forgets what was before.
+///
+/// [ascher95].
+#[derive(Debug)]
+pub(crate) struct Sbdf2 {
+    clock: Clock,
+    solver: Solver,
+    starter: Option<Solver>,
+    /// x − x₋, v₋ and f₋.
+    last_x: Vec<DVec2>,
+    last_v: Vec<DVec2>,
+    last_f: Vec<DVec2>,
+    force: Vec<DVec2>,
+    external: Vec<DVec2>,
+    next_x: Vec<DVec2>,
+    next_v: Vec<DVec2>,
+    contacts: Contacts,
+}
+
+impl Sbdf2 {
+    pub(crate) const NAME: &'static str = "sbdf2";
+
+    pub(crate) fn new(
+        system: &mut dyn System,
+        state: &State,
+        dt: f64,
+    ) -> Result<Self, SchemeError> {
+        system.advance(state.t);
+        stepper::check(Self::NAME, system, state, dt, Mass::Optional)?;
+        let solver = |p: f64, q: f64| {
+            Solver::new(Self::NAME, Mass::Optional, system, (p / (dt * dt), q / dt))
+        };
+        let zeros = || vec![DVec2::ZERO; state.len()];
+        Ok(Self {
+            clock: Clock::new(state, dt),
+            solver: solver(2.25, 1.5)?,
+            starter: Some(solver(1.0, 1.0)?),
+            last_x: zeros(),
+            last_v: zeros(),
+            last_f: zeros(),
+            force: zeros(),
+            external: zeros(),
+            next_x: zeros(),
+            next_v: zeros(),
+            contacts: Contacts::new(state.len()),
+        })
+    }
+
+    /// Sum up the right-hand side of the first step or a later one.
+    fn gather(&mut self, system: &dyn System, state: &State) {
+        let dt = self.clock.dt;
+        let (mass, damping, held) = (system.mass(), system.damping(), system.held());
+        let starts = self.starter.is_some();
+        for i in 0..state.len() {
+            if held[i] {
+                self.force[i] = DVec2::ZERO;
+                continue;
+            }
+            let (v, f) = (state.v[i], self.external[i]);
+            self.force[i] += if starts {
+                f + mass[i] / dt * v
+            } else {
+                let d = self.last_x[i];
+                let inertia = 0.75 / (dt * dt) * d + (4.0 * v - self.last_v[i]) / (2.0 * dt);
+                2.0 * f - self.last_f[i] + mass[i] * inertia + damping[i] / (2.0 * dt) * d
+            };
+        }
+    }
+}
+
+impl Stepper for Sbdf2 {
+    fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
+        let (dt, t) = (self.clock.dt, self.clock.now());
+        // the first step starts where both matrices were made
+        if self.starter.is_none() {
+            self.solver.advance(system, t, &state.x)?;
+        }
+        system.elastic(&state.x, &mut self.force);
+        stepper::external(system, t, &state.x, &state.v, &mut self.external)?;
+        self.gather(system, state);
+        match &self.starter {
+            Some(starter) => starter.solve(&mut self.force),
+            None => self.solver.solve(&mut self.force),
+        }
+        let starts = self.starter.is_some();
+        for i in 0..state.len() {
+            let step = self.force[i];
+            self.next_x[i] = state.x[i] + step;
+            self.next_v[i] = if starts {
+                step / dt
+            } else {
+                (3.0 * step - self.last_x[i]) / (2.0 * dt)
+            };
+        }
+        stepper::finite(&self.next_x)?;
+        let moment = Moment {
+            t: t + dt,
+            dt,
+            lag: 0.0,
+        };
+        let (x, v) = (&mut self.next_x, &mut self.next_v);
+        let solver = self.starter.as_mut().unwrap_or(&mut self.solver);
+        let touched = self
+            .contacts
+            .meet_with(system, moment, &state.x, x, v, Some(solver))?;
+        for i in 0..state.len() {
+            self.last_x[i] = x[i] - state.x[i];
+        }
+        self.last_v.copy_from_slice(&state.v);
+        if touched {
+            for touch in &self.contacts.touches {
+                let i = touch.node;
+                self.last_x[i] = dt * v[i];
+                self.last_v[i] = v[i];
+            }
+        }
+        std::mem::swap(&mut self.last_f, &mut self.external);
+        std::mem::swap(&mut state.x, x);
+        std::mem::swap(&mut state.v, v);
+        self.starter = None;
+        self.clock.tick(state);
+        Ok(())
+    }
+
+    fn dt(&self) -> f64 {
+        self.clock.dt
+    }
+}

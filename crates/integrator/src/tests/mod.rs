@@ -1,0 +1,3 @@
+//! Every scheme against exact motions: orders, borders of stability, energies, refusals.
+
+mod order;
