@@ -25,20 +25,17 @@ scenes![
     "parted-strip",
     "whole-strip",
     "step-edge",
+    "disturbing-edge",
     "apple",
     "apple-closed",
     "apple-report",
 ];
 
-const CONTOURS: [(&str, &str); 3] = [
-    (
-        "apple-report-start",
-        include_str!("../pictures/apple_report_start.csv"),
-    ),
-    (
-        "apple-over-the-stem",
-        include_str!("../pictures/apple_over_the_stem.csv"),
-    ),
+const CONTOURS: [(&str, &str); 5] = [
+    ("apple-report-start", include_str!("../pictures/apple_report_start.csv")),
+    ("apple-over-the-stem", include_str!("../pictures/apple_over_the_stem.csv")),
+    ("apple-without-the-stem", include_str!("../pictures/apple_without_the_stem.csv")),
+    ("apple-whole-without-the-stem", include_str!("../pictures/apple_whole_without_the_stem.csv")),
     ("apple-truth", include_str!("../pictures/apple_contour.csv")),
 ];
 
@@ -56,6 +53,19 @@ pub(crate) fn text(name: &str) -> Result<&'static str, SceneError> {
             }
         })
 }
+
+/// Boxes `[x0, y0, x1, y1]` of what is in the apple's way, by name: the stem, highlights, pencils,
+/// the table's edge, and where its own contour has almost no contrast.
+pub const APPLE_DISTURBING: [(&str, [f64; 4]); 8] = [
+    ("stem", [190.0, 3.0, 232.0, 60.0]),
+    ("highlight_left", [100.0, 132.0, 165.0, 200.0]),
+    ("highlight_right", [340.0, 205.0, 388.0, 325.0]),
+    ("pencil_left", [0.0, 440.0, 125.0, 482.0]),
+    ("pencil_right", [385.0, 440.0, 511.0, 482.0]),
+    ("table", [0.0, 478.0, 511.0, 511.0]),
+    ("lobe", [270.0, 430.0, 330.0, 495.0]),
+    ("weak_right", [415.0, 330.0, 460.0, 450.0]),
+];
 
 /// A contour that comes with the program.
 ///

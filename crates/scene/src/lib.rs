@@ -31,7 +31,7 @@ mod scene;
 mod stages;
 mod write;
 
-pub use catalogue::{SCENES, contour};
+pub use catalogue::{APPLE_DISTURBING, SCENES, contour};
 pub use contour::Contour;
 pub use error::SceneError;
 pub use fit::Fit;

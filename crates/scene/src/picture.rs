@@ -28,7 +28,10 @@ pub struct Picture {
 const MOST_PIXELS: u64 = 1 << 29;
 
 /// The pictures that come with the program, by name.
-const SHIPPED: [(&str, &[u8]); 1] = [("apple", include_bytes!("../pictures/apple.png"))];
+const SHIPPED: [(&str, &[u8]); 2] = [
+    ("apple", include_bytes!("../pictures/apple.png")),
+    ("disturbing-edge", include_bytes!("../pictures/disturbing_edge.pgm")),
+];
 
 impl Picture {
     /// Read a picture file: PNG, JPEG, TIFF, PGM/PPM; grey or colour; 8 bit, 16 bit or float.
