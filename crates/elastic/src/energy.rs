@@ -1,5 +1,6 @@
 //! The elastic energy, term by term.
 
+use crate::profile::Lane;
 use crate::{Material, Topology};
 use glam::DVec2;
 
@@ -47,29 +48,41 @@ pub fn elastic_energy(
         n >= topology.least_nodes(),
         "the curve has the nodes its differences need"
     );
+    let (w0, w1, w2) = (
+        Lane::new(&material.tether),
+        Lane::new(&material.tension),
+        Lane::new(&material.rigidity),
+    );
+    // x and y apart until the end: two sums side by side cost what one does
+    let mut tether = w0.at(n - 1) * (e[n - 1] * e[n - 1]);
+    let mut tension = DVec2::ZERO;
+    let mut rigidity = DVec2::ZERO;
+    let mut edge = DVec2::ZERO;
+    for (i, pair) in e.windows(2).enumerate() {
+        let next = pair[1] - pair[0];
+        tether += w0.at(i) * (pair[0] * pair[0]);
+        tension += w1.at(i) * (next * next);
+        if i > 0 {
+            let bend = next - edge;
+            rigidity += w2.at(i) * (bend * bend);
+        }
+        edge = next;
+    }
     let at = |node: Option<usize>| node.map_or(DVec2::ZERO, |i| e[i]);
-    let tether: f64 = (0..n)
-        .map(|i| material.tether.at(i) * e[i].length_squared())
-        .sum();
-    let tension: f64 = topology
-        .edges(n)
-        .map(|edge| {
-            let [a, b] = edge.nodes.map(at);
-            material.tension.at(edge.weight) * (b - a).length_squared()
-        })
-        .sum();
-    let rigidity: f64 = topology
-        .bends(n)
-        .map(|bend| {
-            let [a, b, c] = bend.nodes.map(at);
-            material.rigidity.at(bend.weight) * ((c - b) - (b - a)).length_squared()
-        })
-        .sum();
+    for edge in topology.outer_edges(n) {
+        let [a, b] = edge.nodes.map(at);
+        tension += w1.at(edge.weight) * ((b - a) * (b - a));
+    }
+    for bend in topology.outer_bends(n) {
+        let [a, b, c] = bend.nodes.map(at);
+        let bent = (c - b) - (b - a);
+        rigidity += w2.at(bend.weight) * (bent * bent);
+    }
     let half = 0.5 * spacing;
     let per_h2 = 1.0 / (spacing * spacing);
     ElasticEnergy {
-        tether: half * tether,
-        tension: half * tension * per_h2,
-        rigidity: half * rigidity * per_h2 * per_h2,
+        tether: half * tether.element_sum(),
+        tension: half * per_h2 * tension.element_sum(),
+        rigidity: half * per_h2 * per_h2 * rigidity.element_sum(),
     }
 }

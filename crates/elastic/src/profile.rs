@@ -153,6 +153,33 @@ impl From<Vec<f64>> for Profile {
     }
 }
 
+/// A profile read without a branch: a uniform one is a slice of one value, met at every index.
+#[derive(Clone, Copy)]
+pub(crate) struct Lane<'a> {
+    values: &'a [f64],
+    mask: usize,
+}
+
+impl<'a> Lane<'a> {
+    pub(crate) const fn new(profile: &'a Profile) -> Self {
+        match profile {
+            Profile::Uniform(value) => Self {
+                values: std::slice::from_ref(value),
+                mask: 0,
+            },
+            Profile::PerNode(values) => Self {
+                values: values.as_slice(),
+                mask: usize::MAX,
+            },
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) const fn at(self, i: usize) -> f64 {
+        self.values[i & self.mask]
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -120,38 +120,68 @@ impl Topology {
 
     /// Every edge that exists among `n` nodes, from head to tail.
     pub(crate) fn edges(self, n: usize) -> impl Iterator<Item = Edge> {
-        let anchored = self.anchored();
-        let first = if anchored.0 { BEFORE - 1 } else { BEFORE };
-        let last = if anchored.1 || self.is_closed() {
-            BEFORE + n
-        } else {
-            BEFORE + n - 1
-        };
-        (first..last).map(move |k| Edge {
-            weight: self.weight(k, n),
-            nodes: [self.node(k, n), self.node(k + 1, n)],
-        })
+        let (first, last) = self.edge_range(n);
+        (first..last).map(move |k| self.edge(k, n))
+    }
+
+    /// The edges besides those from a node to the next in the row: over the seam, beyond anchored ends.
+    pub(crate) fn outer_edges(self, n: usize) -> impl Iterator<Item = Edge> {
+        let (first, last) = self.edge_range(n);
+        (first..BEFORE)
+            .chain(BEFORE + n - 1..last)
+            .map(move |k| self.edge(k, n))
     }
 
     /// Every bend that exists among `n` nodes, from head to tail.
     pub(crate) fn bends(self, n: usize) -> impl Iterator<Item = Bend> {
-        let anchored = self.anchored();
-        let (first, last) = if self.is_closed() {
-            (BEFORE, BEFORE + n)
-        } else {
-            (
-                if anchored.0 { BEFORE - 1 } else { BEFORE + 1 },
-                if anchored.1 {
-                    BEFORE + n + 1
-                } else {
-                    BEFORE + n - 1
-                },
-            )
-        };
-        (first..last).map(move |k| Bend {
+        let (first, last) = self.bend_range(n);
+        (first..last).map(move |k| self.bend(k, n))
+    }
+
+    /// The bends besides those over three nodes in a row.
+    pub(crate) fn outer_bends(self, n: usize) -> impl Iterator<Item = Bend> {
+        let (first, last) = self.bend_range(n);
+        (first..=BEFORE)
+            .chain(BEFORE + n - 1..last)
+            .map(move |k| self.bend(k, n))
+    }
+
+    const fn edge_range(self, n: usize) -> (usize, usize) {
+        let (head, tail) = self.anchored();
+        let first = if head { BEFORE - 1 } else { BEFORE };
+        (
+            first,
+            if tail || self.is_closed() {
+                BEFORE + n
+            } else {
+                BEFORE + n - 1
+            },
+        )
+    }
+
+    const fn bend_range(self, n: usize) -> (usize, usize) {
+        if self.is_closed() {
+            return (BEFORE, BEFORE + n);
+        }
+        let (head, tail) = self.anchored();
+        (
+            if head { BEFORE - 1 } else { BEFORE + 1 },
+            if tail { BEFORE + n + 1 } else { BEFORE + n - 1 },
+        )
+    }
+
+    fn edge(self, k: usize, n: usize) -> Edge {
+        Edge {
+            weight: self.weight(k, n),
+            nodes: [self.node(k, n), self.node(k + 1, n)],
+        }
+    }
+
+    fn bend(self, k: usize, n: usize) -> Bend {
+        Bend {
             weight: self.weight(k, n),
             nodes: [self.node(k - 1, n), self.node(k, n), self.node(k + 1, n)],
-        })
+        }
     }
 
     const fn anchored(self) -> (bool, bool) {
@@ -237,5 +267,29 @@ mod tests {
                 (2, [Some(2), None]),
             ]
         );
+    }
+
+    #[test]
+    fn outer_edges_and_bends_are_those_not_in_the_row() {
+        for topology in [
+            Topology::Closed,
+            Topology::open(End::Free),
+            Topology::open(End::Anchored),
+            Topology::Open {
+                head: End::Anchored,
+                tail: End::Pinned,
+            },
+            Topology::Open {
+                head: End::Free,
+                tail: End::Anchored,
+            },
+        ] {
+            for n in [topology.least_nodes(), 9] {
+                let row = topology.edges(n).count() - topology.outer_edges(n).count();
+                assert_eq!(row, n - 1, "{topology:?}");
+                let row = topology.bends(n).count() - topology.outer_bends(n).count();
+                assert_eq!(row, n - 2, "{topology:?}");
+            }
+        }
     }
 }

@@ -1,5 +1,12 @@
 //! Laws of the elastic force, for every topology, any ends and any densities.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::float_cmp,
+    reason = "a test may stop, and one that says equal means equal"
+)]
+
 use elastic::{
     ElasticEnergy, End, Material, Profile, Topology, elastic_energy, elastic_force, stiffness,
 };

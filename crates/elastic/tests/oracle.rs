@@ -2,6 +2,13 @@
 //!
 //! The numbers are in `oracle/`, with their origin in its README.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::float_cmp,
+    reason = "a test may stop, and one that says equal means equal"
+)]
+
 use banded::{Dense, Pentadiagonal};
 use elastic::{
     End, Material, Parameter, SpacingRule, Topology, center, spacing, spline, stiffness,
