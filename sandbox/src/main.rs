@@ -1,2 +1,232 @@
-//! The sandbox.
-fn main() {}
+//! The command `sandbox`: what was asked, which path, which exit code.
+
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a command talks to its terminal"
+)]
+
+use clap::builder::PossibleValuesParser;
+use clap::{Args, Parser, Subcommand};
+use indicatif::{ProgressBar, ProgressStyle};
+use sandbox::{
+    Done, EXPERIMENTS, Experiment, Folder, SandboxError, accept, committed_folder, compare, find,
+    gallery, page, perform, perform_all,
+};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// The report's experiments: list them, run one, or make every figure.
+///
+/// Exit codes: 0 all is well; 1 a claim does not hold or a number moved; 2 refused, with the reason.
+#[derive(Debug, Parser)]
+#[command(name = "sandbox", version, about, max_term_width = 100)]
+struct Asked {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Debug, Subcommand)]
+enum What {
+    /// List the experiments: id, place in the report, title
+    List,
+    /// Run one experiment and tell its claims and numbers
+    Run {
+        /// Which, as `sandbox list` names it
+        #[arg(value_parser = ids(), hide_possible_values = true)]
+        id: String,
+        /// Also write its drawings and tables into this folder
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
+    /// Make every figure, from nothing, with an index page to look through
+    Figures(Figures),
+}
+
+#[derive(Debug, Args)]
+struct Figures {
+    /// Only this experiment; may be given more than once
+    #[arg(long, value_name = "ID", value_parser = ids(), hide_possible_values = true)]
+    only: Vec<String>,
+    /// Write nothing: run everything and fail if a claim does not hold, a number is not what
+    /// sandbox/expected/ says, or a drawing is missing from docs/figures/
+    #[arg(long, conflicts_with_all = ["accept", "out"])]
+    check: bool,
+    /// Take the numbers found as those expected from now on (also: REGENERATE=1)
+    #[arg(long)]
+    accept: bool,
+    /// Where the drawings, tables and index.html go. With docs/figures, the committed set is
+    /// rewritten: drawings only, and docs/figures.md
+    #[arg(long, value_name = "DIR", default_value = "figures")]
+    out: PathBuf,
+}
+
+fn ids() -> PossibleValuesParser {
+    PossibleValuesParser::new(EXPERIMENTS.iter().map(|experiment| experiment.id))
+}
+
+fn main() -> ExitCode {
+    let result = match Asked::parse().what {
+        What::List => {
+            list();
+            Ok(true)
+        }
+        What::Run { id, out } => run(&id, out.as_deref()),
+        What::Figures(asked) => figures(&asked),
+    };
+    match result {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(1),
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn list() {
+    for experiment in EXPERIMENTS {
+        println!(
+            "{:<14} {:<16} {}",
+            experiment.id, experiment.place, experiment.title
+        );
+    }
+}
+
+fn run(id: &str, out: Option<&Path>) -> Result<bool, SandboxError> {
+    let folder = out.map(Folder::open).transpose()?;
+    let Some(experiment) = find(id) else {
+        return Ok(false);
+    }; // the parser let only ids through
+    let done = perform(experiment)?;
+    println!(
+        "{} · {}\n{}\n",
+        experiment.place, experiment.title, experiment.question
+    );
+    tell(&done);
+    println!("\n{}", done.record.numbers_csv().trim_end());
+    if let Some(folder) = folder {
+        write_drawings(&folder, &done)?;
+        write_tables(&folder, &done)?;
+        eprintln!("written into {}", folder.path().display());
+    }
+    Ok(done.holds())
+}
+
+fn tell(done: &Done) {
+    for (claim, finding) in done.experiment.claims.iter().zip(&done.findings) {
+        let verdict = if finding.holds {
+            "holds"
+        } else {
+            "DOES NOT HOLD"
+        };
+        println!(
+            "{verdict}: {} ({}): {}",
+            claim.says, claim.source, finding.measured
+        );
+    }
+}
+
+fn figures(asked: &Figures) -> Result<bool, SandboxError> {
+    let folder = if asked.check {
+        None
+    } else {
+        Some(Folder::open(&asked.out)?)
+    };
+    let chosen: Vec<&'static Experiment> = EXPERIMENTS
+        .iter()
+        .copied()
+        .filter(|one| asked.only.is_empty() || asked.only.iter().any(|id| id == one.id))
+        .collect();
+    let bar = ProgressBar::new(u64::try_from(chosen.len()).unwrap_or(0));
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg} {elapsed}") {
+        bar.set_style(style);
+    }
+    bar.tick();
+    let done = perform_all(&chosen, &|experiment| {
+        bar.set_message(experiment.id);
+        bar.inc(1);
+    })?;
+    bar.finish_and_clear();
+
+    let mut fine = true;
+    for one in &done {
+        if !one.holds() {
+            fine = false;
+            println!("{}:", one.experiment.id);
+            tell(one);
+        }
+    }
+    if asked.accept || std::env::var_os("REGENERATE").is_some_and(|value| value == "1") {
+        for one in &done {
+            accept(one.experiment, &one.record)?;
+        }
+    }
+    match folder {
+        Some(folder) => write(&folder, &done, asked.only.is_empty())?,
+        None => fine &= check(&done),
+    }
+    let claims: usize = done.iter().map(|one| one.findings.len()).sum();
+    let verdict = if fine { "all hold" } else { "not all is well" };
+    println!("{} experiments, {claims} claims: {verdict}", done.len());
+    Ok(fine)
+}
+
+/// Whether numbers are as expected and drawings are where they belong.
+fn check(done: &[Done]) -> bool {
+    let mut fine = true;
+    for one in done {
+        for moved in compare(one.experiment, &one.record) {
+            fine = false;
+            println!("moved: {moved}");
+        }
+        for drawing in &one.drawings {
+            match std::fs::read(committed_folder().join(&drawing.file)) {
+                Ok(bytes) if bytes == drawing.bytes => {}
+                Ok(_) => println!(
+                    "note: docs/figures/{} would be drawn differently",
+                    drawing.file
+                ),
+                Err(reason) => {
+                    fine = false;
+                    println!("missing: docs/figures/{}: {reason}", drawing.file);
+                }
+            }
+        }
+    }
+    fine
+}
+
+fn write(folder: &Folder, done: &[Done], all: bool) -> Result<(), SandboxError> {
+    for one in done {
+        write_drawings(folder, one)?;
+    }
+    let same = |a: &Path, b: &Path| a.canonicalize().ok() == b.canonicalize().ok();
+    if committed_folder().exists() && same(folder.path(), &committed_folder()) {
+        if all {
+            let docs = Folder::open(&committed_folder().join(".."))?;
+            docs.write("figures.md", gallery(done).as_bytes())?;
+        }
+        return Ok(());
+    }
+    for one in done {
+        write_tables(folder, one)?;
+    }
+    folder.write("index.html", page(done).as_bytes())?;
+    println!("open {}", folder.path().join("index.html").display());
+    Ok(())
+}
+
+fn write_drawings(folder: &Folder, done: &Done) -> Result<(), SandboxError> {
+    done.drawings
+        .iter()
+        .try_for_each(|drawing| folder.write(&drawing.file, &drawing.bytes))
+}
+
+fn write_tables(folder: &Folder, done: &Done) -> Result<(), SandboxError> {
+    let id = done.experiment.id;
+    folder.write(&format!("{id}.csv"), done.record.numbers_csv().as_bytes())?;
+    done.record.tables.iter().try_for_each(|table| {
+        folder.write(&format!("{id}.{}.csv", table.name), table.csv().as_bytes())
+    })
+}

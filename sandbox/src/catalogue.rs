@@ -1,0 +1,51 @@
+//! The table of all experiments, in the order of the report.
+
+use crate::Experiment;
+use crate::experiments::{angle, damping, matrix, signal, smoothing, time_step};
+
+/// Every experiment. A new one is added here and nowhere else.
+pub const EXPERIMENTS: &[&Experiment] = &[
+    &matrix::MATRIX,
+    &damping::DAMPING,
+    &time_step::TIME_STEP,
+    &smoothing::SMOOTHING,
+    &signal::STEP,
+    &signal::BOX,
+    &signal::FORCE,
+    &angle::ANGLE,
+];
+
+/// The experiment of that name.
+#[must_use]
+pub fn find(id: &str) -> Option<&'static Experiment> {
+    EXPERIMENTS
+        .iter()
+        .copied()
+        .find(|experiment| experiment.id == id)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_experiment_has_an_id_of_its_own_and_claims_something() {
+        for (index, experiment) in EXPERIMENTS.iter().enumerate() {
+            let twin = EXPERIMENTS[..index]
+                .iter()
+                .any(|other| other.id == experiment.id);
+            assert!(!twin, "{} twice", experiment.id);
+            assert!(
+                !experiment.claims.is_empty(),
+                "{} claims nothing",
+                experiment.id
+            );
+            let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+            assert!(
+                experiment.id.chars().all(plain),
+                "{} is no file name",
+                experiment.id
+            );
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! The experiments, one file a family.
+
+pub(crate) mod angle;
+pub(crate) mod damping;
+pub(crate) mod matrix;
+pub(crate) mod signal;
+pub(crate) mod smoothing;
+pub(crate) mod time_step;

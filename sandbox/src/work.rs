@@ -1,0 +1,127 @@
+//! Running experiments: one, or all of them on the processors there are.
+
+use crate::{Artefact, Body, Experiment, Finding, Record, SandboxError};
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// A drawing as bytes.
+#[derive(Debug, Clone)]
+pub struct Drawn {
+    /// The file's name.
+    pub file: String,
+    /// One line under it.
+    pub caption: &'static str,
+    /// The file.
+    pub bytes: Vec<u8>,
+}
+
+/// An experiment that was run, judged and drawn.
+#[derive(Debug, Clone)]
+pub struct Done {
+    /// Which.
+    pub experiment: &'static Experiment,
+    /// What it left.
+    pub record: Record,
+    /// One for each claim, in order.
+    pub findings: Vec<Finding>,
+    /// Its drawings.
+    pub drawings: Vec<Drawn>,
+    /// How long it took.
+    pub took: Duration,
+}
+
+impl Done {
+    /// Whether every claim holds.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.findings.iter().all(|finding| finding.holds)
+    }
+}
+
+/// The committed drawings in the source tree this program was built from.
+#[must_use]
+pub fn committed_folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("..")
+        .join("docs")
+        .join("figures")
+}
+
+/// Runs, judges and draws one experiment.
+///
+/// # Errors
+///
+/// When a crate below refuses what the experiment asks, or a claim or drawing asks for something
+/// that was not recorded.
+pub fn perform(experiment: &'static Experiment) -> Result<Done, SandboxError> {
+    let start = Instant::now();
+    let record = (experiment.run)()?;
+    let findings = experiment
+        .claims
+        .iter()
+        .map(|claim| (claim.judge)(&record))
+        .collect::<Result<Vec<Finding>, SandboxError>>()?;
+    let drawings = (experiment.draw)(&record)?
+        .iter()
+        .map(|artefact| drawn(experiment, artefact))
+        .collect::<Result<Vec<Drawn>, SandboxError>>()?;
+    Ok(Done {
+        experiment,
+        record,
+        findings,
+        drawings,
+        took: start.elapsed(),
+    })
+}
+
+fn drawn(experiment: &Experiment, artefact: &Artefact) -> Result<Drawn, SandboxError> {
+    let (bytes, ending) = match &artefact.body {
+        Body::Figure(figure) => (figure.svg()?.into_bytes(), "svg"),
+        Body::Animation(animation) => (animation.gif()?, "gif"),
+    };
+    let file = match artefact.suffix {
+        "" => format!("{}.{ending}", experiment.id),
+        suffix => format!("{}-{suffix}.{ending}", experiment.id),
+    };
+    Ok(Drawn {
+        file,
+        caption: artefact.caption,
+        bytes,
+    })
+}
+
+/// Runs experiments on all processors; the answers come in the order asked. `watch` hears of each
+/// as it is finished.
+///
+/// # Errors
+///
+/// The first refusal, in the order asked.
+pub fn perform_all(
+    experiments: &[&'static Experiment],
+    watch: &(dyn Fn(&'static Experiment) + Sync),
+) -> Result<Vec<Done>, SandboxError> {
+    let next = AtomicUsize::new(0);
+    let results = Mutex::new(Vec::new());
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..workers.min(experiments.len()) {
+            scope.spawn(|| {
+                while let Some(&experiment) = experiments.get(next.fetch_add(1, Ordering::Relaxed))
+                {
+                    let result = perform(experiment);
+                    watch(experiment);
+                    if let Ok(mut results) = results.lock() {
+                        results.push((experiment.id, result));
+                    }
+                }
+            });
+        }
+    });
+    let mut results = results
+        .into_inner()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    results.sort_by_key(|(id, _)| experiments.iter().position(|asked| asked.id == *id));
+    results.into_iter().map(|(_, result)| result).collect()
+}
