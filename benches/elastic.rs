@@ -1,5 +1,6 @@
 //! What a curve's force on itself costs: the stencil, the same as a banded product, and as the dense one the
 //! report multiplied.
+#![allow(clippy::expect_used, reason = "a bench may stop")]
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use elastic::{
@@ -15,12 +16,17 @@ const DENSE_UP_TO: usize = 2048;
 
 /// Some deformation, smooth and small.
 fn deformation(n: usize) -> Vec<DVec2> {
-    circle(DVec2::ZERO, 3.0, n).iter().map(|p| DVec2::new(p.x * p.y, p.y)).collect()
+    circle(DVec2::ZERO, 3.0, n)
+        .iter()
+        .map(|p| DVec2::new(p.x * p.y, p.y))
+        .collect()
 }
 
 fn materials(n: usize) -> [(&'static str, Material); 2] {
     let plain = Material::uniform(0.1, 20.0, 50.0);
-    let corners = plain.with_corner(n / 3, n).expect("the circle has a node at a third");
+    let corners = plain
+        .with_corner(n / 3, n)
+        .expect("the circle has a node at a third");
     [("uniform", plain), ("profile", corners)]
 }
 
@@ -31,7 +37,10 @@ fn force(c: &mut Criterion) {
         group.throughput(Throughput::Elements(n as u64));
         let e = deformation(n);
         let mut force = vec![DVec2::ZERO; n];
-        for (ends, topology) in [("closed", Topology::Closed), ("free", Topology::open(End::Free))] {
+        for (ends, topology) in [
+            ("closed", Topology::Closed),
+            ("free", Topology::open(End::Free)),
+        ] {
             for (densities, material) in materials(n) {
                 let id = BenchmarkId::new(format!("stencil-{ends}-{densities}"), n);
                 group.bench_function(id, |b| {
@@ -85,9 +94,10 @@ fn start(c: &mut Criterion) {
     let clicks: Vec<_> = circle(DVec2::ZERO, 40.0, 12);
     for n in SIZES {
         group.throughput(Throughput::Elements(n as u64));
-        for (name, parameter) in
-            [("point-index", Parameter::PointIndex), ("arc-length", Parameter::ArcLength)]
-        {
+        for (name, parameter) in [
+            ("point-index", Parameter::PointIndex),
+            ("arc-length", Parameter::ArcLength),
+        ] {
             group.bench_function(BenchmarkId::new(name, n), |b| {
                 b.iter(|| spline(black_box(&clicks), n, parameter, true));
             });
