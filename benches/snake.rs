@@ -1,2 +1,74 @@
-//! Placeholder until the crate has something to time.
-fn main() {}
+//! One whole step of a snake: elastic force or solve, image, walls, update.
+//!
+//! `step/SCHEME/free` has no picture, `step/SCHEME/image` samples a 512² field, which stays in
+//! cache for a snake of moderate size; throughput is in nodes.
+
+use std::hint::black_box;
+use std::sync::Arc;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use elastic::{Material, Topology};
+use field::{EdgeForce, ForceField, Grid};
+use glam::DVec2;
+use integrator::{Scheme, Start, State};
+use snake::{Body, Sampling, Snake, World};
+
+const NODES: [usize; 5] = [32, 128, 512, 2048, 8192];
+
+/// A disk's field: as large as a picture of a camera, and with an edge.
+fn disk() -> Arc<ForceField> {
+    let picture = Grid::from_shape_fn((512, 512), |(y, x)| {
+        let p = DVec2::new(x as f64, y as f64) - 256.0;
+        if p.length() < 200.0 { 200.0 } else { 60.0 }
+    });
+    let rule = EdgeForce::as_strong_as_the_report();
+    Arc::new(field::edge_force(&picture, &rule).unwrap_or_else(|error| unreachable!("{error}")))
+}
+
+fn ring(n: usize, world: World) -> (Snake, State) {
+    let nodes = elastic::circle(DVec2::splat(256.0), 205.0, n);
+    let mut state = State::at_rest(nodes.clone());
+    state.x[0].x += 0.01;
+    let made = Body::of(&nodes, Topology::Closed, 1.0).and_then(|body| {
+        let h = body.spacing;
+        // the same stiffness ratio for any number of nodes, so that one step suits all
+        let material = Material::uniform(0.05, 2.0 * h * h, 2.0 * h.powi(4));
+        Snake::new(body.with_material(material).with_damping(1.0), world)
+    });
+    (made.unwrap_or_else(|error| unreachable!("{error}")), state)
+}
+
+fn step(c: &mut Criterion) {
+    let field = disk();
+    for scheme in Scheme::ALL {
+        for image in [false, true] {
+            let place = if image { "image" } else { "free" };
+            let mut group = c.benchmark_group(format!("step/{}/{place}", scheme.name()));
+            for n in NODES {
+                let world = if image {
+                    World::default().with_image(Arc::clone(&field), Sampling::Bilinear)
+                } else {
+                    World::default()
+                };
+                let (mut snake, mut state) = ring(n, world);
+                // a scheme that is not made for such a snake has nothing to time
+                let Ok(mut stepper) =
+                    scheme.start(&mut snake, &state, 0.05, Start::SecondOrder)
+                else {
+                    continue;
+                };
+                group.throughput(Throughput::Elements(n as u64));
+                group.bench_function(BenchmarkId::from_parameter(n), |b| {
+                    b.iter(|| {
+                        let fault = stepper.step(&mut snake, &mut state);
+                        black_box(&fault);
+                    });
+                });
+            }
+            group.finish();
+        }
+    }
+}
+
+criterion_group!(benches, step);
+criterion_main!(benches);
