@@ -47,10 +47,16 @@ pub enum ElasticError {
         got: usize,
     },
     /// A spacing that nothing can be divided by.
-    #[error("the spacing must be finite and above 0, got {value}")]
+    #[error("the spacing must be from 1e-75 to 1e75, got {value}{}", coincident(*.value))]
     BadSpacing {
         /// What was given.
         value: f64,
+    },
+    /// The stiffness matrix is not finite, though each density is.
+    #[error("the densities are too large for a spacing of {spacing}: the stiffness is not finite")]
+    TooStiff {
+        /// The spacing that divides them.
+        spacing: f64,
     },
     /// A coordinate is infinite or not a number.
     #[error("{name} {index} must be finite, got ({}, {})", .value.x, .value.y)]
@@ -77,4 +83,12 @@ pub enum ElasticError {
 
 fn at_node(node: Option<usize>) -> String {
     node.map_or_else(String::new, |i| format!(" at node {i}"))
+}
+
+fn coincident(spacing: f64) -> &'static str {
+    if spacing.abs() > 0.0 || spacing.is_nan() {
+        ""
+    } else {
+        "; do all nodes coincide?"
+    }
 }

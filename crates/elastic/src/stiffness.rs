@@ -11,6 +11,7 @@
 
 use crate::{Bound, ElasticError, Material, Profile, Topology};
 use banded::Pentadiagonal;
+use std::ops::RangeInclusive;
 
 /// The stiffness matrix of a curve: `−K e` is the elastic force on its nodes.
 ///
@@ -27,8 +28,8 @@ use banded::Pentadiagonal;
 ///
 /// # Errors
 ///
-/// Too few nodes, densities that do not fit or are not sound, a spacing that is not finite and above 0,
-/// or so small that `h⁴` vanishes.
+/// Too few nodes, densities that do not fit or are not sound, a spacing that is 0, negative, not a number or
+/// out of all measure, or a K that is not finite.
 pub fn stiffness(
     topology: Topology,
     material: &Material,
@@ -56,7 +57,11 @@ pub fn stiffness(
             [1.0, -2.0, 1.0],
         );
     }
-    Ok(k)
+    if k.norm().is_finite() {
+        Ok(k)
+    } else {
+        Err(ElasticError::TooStiff { spacing })
+    }
 }
 
 /// The matrix as the report's text prints it, wrong on purpose: only to show what is wrong with it.
@@ -98,15 +103,16 @@ pub fn stiffness_as_printed(
     Ok(k)
 }
 
+/// Spacings whose fourth power is a number: whatever the unit, no curve is drawn outside these.
+const SPACINGS: RangeInclusive<f64> = 1e-75..=1e75;
+
 /// `1/h²` and `1/h⁴`.
 fn inverse_powers(spacing: f64) -> Result<(f64, f64), ElasticError> {
-    let per_h2 = 1.0 / (spacing * spacing);
-    let per_h4 = per_h2 * per_h2;
-    if spacing > 0.0 && spacing.is_finite() && per_h4.is_finite() {
-        Ok((per_h2, per_h4))
-    } else {
-        Err(ElasticError::BadSpacing { value: spacing })
+    if !SPACINGS.contains(&spacing) {
+        return Err(ElasticError::BadSpacing { value: spacing });
     }
+    let per_h2 = 1.0 / (spacing * spacing);
+    Ok((per_h2, per_h2 * per_h2))
 }
 
 /// Adds `weight · r rᵀ`, where `r` has the coefficients at those nodes that are real.
@@ -125,4 +131,104 @@ fn add<const M: usize>(
         }
     }
     k.add_outer(weight, &row[..count]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::End;
+
+    const FREE: Topology = Topology::open(End::Free);
+
+    fn refused(topology: Topology, material: &Material, spacing: f64, n: usize) -> String {
+        stiffness(topology, material, spacing, n)
+            .unwrap_err()
+            .to_string()
+    }
+
+    #[test]
+    fn a_bump_at_node_0_gives_the_first_column() {
+        let k = stiffness(
+            Topology::Closed,
+            &Material::uniform(1.0, 10.0, 100.0),
+            1.0,
+            7,
+        )
+        .unwrap();
+        let column: Vec<_> = (0..7).map(|i| k.entry(i, 0)).collect();
+        assert_eq!(column, [621.0, -410.0, 100.0, 0.0, 0.0, 100.0, -410.0]);
+        let k = stiffness(FREE, &Material::uniform(1.0, 10.0, 100.0), 1.0, 5).unwrap();
+        let column: Vec<_> = (0..5).map(|i| k.entry(i, 0)).collect();
+        assert_eq!(column, [111.0, -210.0, 100.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn waves_round_a_ring_are_its_modes() {
+        let (w0, w1, w2, h, n) = (0.3, 5.0, 2.0, 0.8_f64, 15);
+        let k = stiffness(Topology::Closed, &Material::uniform(w0, w1, w2), h, n).unwrap();
+        for wave in 0..=7 {
+            let theta = std::f64::consts::TAU * f64::from(wave) / n as f64;
+            let sine = (theta / 2.0).sin().powi(2);
+            let lambda = w0 + 4.0 * w1 / h.powi(2) * sine + 16.0 * w2 / h.powi(4) * sine * sine;
+            let mode: Vec<_> = (0..n).map(|i| (theta * i as f64).cos()).collect();
+            let mut product = vec![0.0; n];
+            k.multiply_scalars_into(&mode, &mut product);
+            for (p, e) in product.iter().zip(&mode) {
+                assert!((p - lambda * e).abs() < 1e-14 * k.norm(), "wave {wave}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_spacing_that_cannot_be_divided_by_is_refused() {
+        let material = Material::uniform(1.0, 1.0, 1.0);
+        for bad in [
+            -1.0,
+            1e-100,
+            1e100,
+            f64::NAN,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+        ] {
+            let words = refused(FREE, &material, bad, 5);
+            assert_eq!(
+                words,
+                format!("the spacing must be from 1e-75 to 1e75, got {bad}")
+            );
+        }
+        let words = refused(FREE, &material, 0.0, 5);
+        assert!(words.ends_with("got 0; do all nodes coincide?"), "{words}");
+        assert!(stiffness(FREE, &material, 1e-75, 5).is_ok());
+    }
+
+    #[test]
+    fn densities_that_overflow_are_refused() {
+        let words = refused(FREE, &Material::uniform(0.0, 1e200, 0.0), 1e-70, 5);
+        assert!(
+            words.starts_with("the densities are too large for a spacing of"),
+            "{words}"
+        );
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_material_is_said_before_anything_is_built() {
+        let words = refused(FREE, &Material::uniform(0.0, f64::INFINITY, 0.0), 1.0, 5);
+        assert_eq!(words, "tension must be finite and at least 0, got inf");
+        let mut material = Material::uniform(0.0, 1.0, 0.0);
+        material.rigidity = vec![1.0, 1.0, -0.5, 1.0, 1.0].into();
+        let words = refused(FREE, &material, 1.0, 5);
+        assert_eq!(
+            words,
+            "rigidity must be finite and at least 0, got -0.5 at node 2"
+        );
+        let words = refused(Topology::Closed, &material, 1.0, 6);
+        assert_eq!(
+            words,
+            "rigidity must have one value for each of the 6 nodes, got 5"
+        );
+        let words = stiffness_as_printed(1.0, -1.0, 1.0, 5)
+            .unwrap_err()
+            .to_string();
+        assert_eq!(words, "tension must be finite and at least 0, got -1");
+    }
 }
