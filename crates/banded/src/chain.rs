@@ -176,6 +176,7 @@ impl<E: Entry> Heart<E> {
 }
 
 impl<E: Copy> Heart<E> {
+    #[inline(always)]
     pub(crate) fn solve<V: Node<E>>(&self, b: &mut [V; 4]) {
         for k in 0..4 {
             for i in k + 1..4 {

@@ -58,6 +58,7 @@ impl From<f64> for Complex {
 impl Add for Complex {
     type Output = Self;
 
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self::new(self.re + other.re, self.im + other.im)
     }
@@ -72,6 +73,7 @@ impl AddAssign for Complex {
 impl Sub for Complex {
     type Output = Self;
 
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         Self::new(self.re - other.re, self.im - other.im)
     }
@@ -88,6 +90,7 @@ impl Neg for Complex {
 impl Mul for Complex {
     type Output = Self;
 
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let re = self.re * other.re - self.im * other.im;
         Self::new(re, self.re * other.im + self.im * other.re)
@@ -97,6 +100,7 @@ impl Mul for Complex {
 impl Mul<f64> for Complex {
     type Output = Self;
 
+    #[inline(always)]
     fn mul(self, factor: f64) -> Self {
         Self::new(self.re * factor, self.im * factor)
     }
@@ -159,6 +163,7 @@ impl From<DVec2> for ComplexPoint {
 impl Add for ComplexPoint {
     type Output = Self;
 
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self::new(self.re + other.re, self.im + other.im)
     }
@@ -167,6 +172,7 @@ impl Add for ComplexPoint {
 impl Sub for ComplexPoint {
     type Output = Self;
 
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         Self::new(self.re - other.re, self.im - other.im)
     }
@@ -175,6 +181,7 @@ impl Sub for ComplexPoint {
 impl Mul<Complex> for ComplexPoint {
     type Output = Self;
 
+    #[inline(always)]
     fn mul(self, c: Complex) -> Self {
         Self::new(
             self.re * c.re - self.im * c.im,
@@ -186,6 +193,7 @@ impl Mul<Complex> for ComplexPoint {
 impl Mul<f64> for ComplexPoint {
     type Output = Self;
 
+    #[inline(always)]
     fn mul(self, factor: f64) -> Self {
         Self::new(self.re * factor, self.im * factor)
     }

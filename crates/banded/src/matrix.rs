@@ -271,7 +271,9 @@ impl Pentadiagonal {
                 + (self.second[i].abs() + self.second[(i + n - 2) % n].abs())
         };
         // NaN goes through
-        (0..n).map(row).fold(0.0, |most, size| if size <= most { most } else { size })
+        (0..n)
+            .map(row)
+            .fold(0.0, |most, size| if size <= most { most } else { size })
     }
 
     /// All n² entries.

@@ -16,6 +16,8 @@
 //! Spikes fade along the chain at a rate set by the matrix. They are kept as far as they matter:
 //! what is dropped is below [`FADED`] times the largest diagonal element.
 
+use pulp::{Arch, Simd, WithSimd};
+
 use crate::chain::{Backward, Chain, Forward, Heart, Rows};
 use crate::scalar::{Entry, Node};
 use crate::{BandedError, Lanes};
@@ -143,7 +145,15 @@ impl<E: Copy> Twisted<E> {
     }
 
     /// Turns the right-hand side into the solution. O(n), allocates nothing.
+    ///
+    /// With the widest registers there are. Every operation rounds by itself, so width changes the
+    /// time and never a digit.
     pub(crate) fn solve<V: Node<E>>(&self, b: &mut [V]) {
+        Arch::new().dispatch(Sweep { factor: self, b });
+    }
+
+    #[inline(always)]
+    fn sweep<V: Node<E>>(&self, b: &mut [V]) {
         debug_assert_eq!(b.len(), self.len(), "one element a row");
         let (inner, border) = b.split_at_mut(self.left.links.len() + 2 + self.right.links.len());
         let (left, inner) = inner.split_at_mut(self.left.links.len());
@@ -162,6 +172,7 @@ impl<E: Copy> Twisted<E> {
     }
 
     /// Both chains towards the middle; the left one may be a node longer, and starts alone.
+    #[inline(always)]
     fn forward<V: Node<E>>(&self, left: &mut [V], right: &mut [V], heart: &mut [V; 4]) {
         let mut from_left = Forward::default();
         let mut from_right = Forward::default();
@@ -205,6 +216,7 @@ impl<E: Copy> Twisted<E> {
         heart[3] = heart[3] - border_left[1] - border_right[1];
     }
 
+    #[inline(always)]
     fn backward<V: Node<E>>(&self, left: &mut [V], right: &mut [V], heart: &[V; 4]) {
         let [m0, m1, b0, b1] = *heart;
         let mut to_left = Backward {
@@ -252,6 +264,21 @@ impl<E: Copy> Twisted<E> {
     }
 }
 
+/// A solve, to be compiled once for each kind of machine.
+struct Sweep<'a, E, V> {
+    factor: &'a Twisted<E>,
+    b: &'a mut [V],
+}
+
+impl<E: Copy, V: Node<E>> WithSimd for Sweep<'_, E, V> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.factor.sweep(self.b);
+    }
+}
+
 impl<const W: usize> Twisted<Lanes<W>> {
     /// Factors of one size and kind, one a lane.
     pub(crate) fn side_by_side(factors: [&Twisted<f64>; W]) -> Self {
@@ -260,6 +287,48 @@ impl<const W: usize> Twisted<Lanes<W>> {
             left: Chain::side_by_side(factors.map(|factor| &factor.left)),
             right: Chain::side_by_side(factors.map(|factor| &factor.right)),
             heart: Heart::side_by_side(factors.map(|factor| &factor.heart)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    #[test]
+    fn wide_registers_change_no_digit() {
+        for (n, cyclic) in [(5, true), (40, true), (41, true), (40, false), (41, false)] {
+            let wave = |scale: f64| -> Vec<f64> {
+                (0..n)
+                    .map(|i| scale * (1.0 + 0.3 * (1.7 * f64::from(i)).sin()))
+                    .collect()
+            };
+            let mut first = wave(-4.0);
+            let mut second = wave(1.0);
+            if !cyclic {
+                let last = first.len() - 1;
+                first[last] = 0.0;
+                second[last - 1..].fill(0.0);
+            }
+            let diagonal = &wave(12.0);
+            let diagonals = Diagonals {
+                cyclic,
+                diagonal,
+                first: &first,
+                second: &second,
+            };
+            let factor = Twisted::new(&diagonals).unwrap();
+            let mut wide: Vec<DVec2> = wave(1.0).into_iter().map(DVec2::from_angle).collect();
+            let mut plain = wide.clone();
+            factor.solve(&mut wide);
+            factor.sweep(&mut plain);
+            let bits = |x: &[DVec2]| {
+                x.iter()
+                    .map(|x| x.to_array().map(f64::to_bits))
+                    .collect::<Vec<_>>()
+            };
+            assert_eq!(bits(&wide), bits(&plain), "{n} {cyclic}");
         }
     }
 }
