@@ -16,7 +16,7 @@
 //! use integrator::{Scheme, Start, State};
 //! use snake::{Body, Outcome, Snake, Until, World, run};
 //!
-//! let circle = elastic::circle(DVec2::ZERO, 10.0, 40)?;
+//! let circle = elastic::circle(DVec2::ZERO, 10.0, 40);
 //! let body = Body::of(&circle, elastic::Topology::Closed, 1.0)?.with_damping(0.5);
 //! let mut snake = Snake::new(body, World::default().with_gravity(DVec2::new(0.0, 9.8)))?;
 //! let mut state = State::at_rest(circle);
