@@ -1,16 +1,39 @@
 //! A force at every pixel center, and what it is in between.
 
 use crate::error::{FieldError, OutsideField};
+use crate::fast::TileSource;
 use crate::grid::Grid;
 use glam::DVec2;
 use ndarray::{Array2, Zip};
+use std::sync::Arc;
 
 /// A force at every pixel center, whatever it was made from.
 ///
 /// Pixel centers are at whole numbers, the first at (0, 0), x to the right and y down.
-#[derive(Debug, Clone, PartialEq)]
+///
+/// Kept in `f64`, in `f32` as [`fast_force`](crate::fast_force) makes it, or as tiles computed where they are asked
+/// for ([`lazy_force`](crate::lazy_force)); who samples it cannot tell. Two fields are equal if all their forces are.
+#[derive(Debug, Clone)]
 pub struct ForceField {
-    forces: Array2<DVec2>,
+    forces: Forces,
+}
+
+#[derive(Debug, Clone)]
+enum Forces {
+    Double(Array2<DVec2>),
+    Single(Array2<[f32; 2]>),
+    Tiles {
+        tiles: Arc<dyn TileSource>,
+        factor: f64,
+    },
+}
+
+impl PartialEq for ForceField {
+    fn eq(&self, other: &Self) -> bool {
+        let same = |row, column| self.force(row, column) == other.force(row, column);
+        self.dim() == other.dim()
+            && (0..self.height()).all(|row| (0..self.width()).all(|column| same(row, column)))
+    }
 }
 
 impl ForceField {
@@ -34,8 +57,57 @@ impl ForceField {
             }
         }
         Ok(Self {
-            forces: forces.as_standard_layout().into_owned(),
+            forces: Forces::Double(forces.as_standard_layout().into_owned()),
         })
+    }
+
+    /// A field of `f32` forces that were checked where they were made.
+    pub(crate) fn single(forces: Array2<[f32; 2]>) -> Self {
+        Self {
+            forces: Forces::Single(forces),
+        }
+    }
+
+    /// Takes the memory of `f32` forces of this shape, or fresh memory.
+    pub(crate) fn take_single(&mut self, dim: (usize, usize)) -> Array2<[f32; 2]> {
+        match std::mem::replace(&mut self.forces, Forces::Single(Array2::default((0, 0)))) {
+            Forces::Single(forces) if forces.dim() == dim => forces,
+            _ => Array2::default(dim),
+        }
+    }
+
+    /// A field of tiles.
+    pub(crate) fn tiles(tiles: Arc<dyn TileSource>) -> Self {
+        Self {
+            forces: Forces::Tiles { tiles, factor: 1.0 },
+        }
+    }
+
+    /// The force at a pixel center known to be inside.
+    #[inline]
+    fn force(&self, row: usize, column: usize) -> DVec2 {
+        match &self.forces {
+            Forces::Double(forces) => forces[[row, column]],
+            Forces::Single(forces) => widened(forces[[row, column]]),
+            Forces::Tiles { tiles, factor } => widened(tiles.force(row, column)) * *factor,
+        }
+    }
+
+    fn dim(&self) -> (usize, usize) {
+        match &self.forces {
+            Forces::Double(forces) => forces.dim(),
+            Forces::Single(forces) => forces.dim(),
+            Forces::Tiles { tiles, .. } => tiles.dim(),
+        }
+    }
+
+    /// How many tiles of a lazy field have been computed so far; `None` for a field that is there as a whole.
+    #[must_use]
+    pub fn tiles_computed(&self) -> Option<usize> {
+        match &self.forces {
+            Forces::Tiles { tiles, .. } => Some(tiles.computed()),
+            _ => None,
+        }
     }
 
     /// A field from its two components.
@@ -55,19 +127,19 @@ impl ForceField {
     /// Columns.
     #[must_use]
     pub fn width(&self) -> usize {
-        self.forces.ncols()
+        self.dim().1
     }
 
     /// Rows.
     #[must_use]
     pub fn height(&self) -> usize {
-        self.forces.nrows()
+        self.dim().0
     }
 
     /// The force at a pixel center, or `None` outside the image.
     #[must_use]
     pub fn pixel(&self, column: usize, row: usize) -> Option<DVec2> {
-        self.forces.get([row, column]).copied()
+        (row < self.height() && column < self.width()).then(|| self.force(row, column))
     }
 
     /// The force at any point: bilinear between the four pixel centers around it.
@@ -79,9 +151,8 @@ impl ForceField {
     pub fn at(&self, p: DVec2) -> DVec2 {
         let (x0, x1, tx) = cell(p.x, self.width());
         let (y0, y1, ty) = cell(p.y, self.height());
-        let f = &self.forces;
-        let above = f[[y0, x0]] * (1.0 - tx) + f[[y0, x1]] * tx;
-        let below = f[[y1, x0]] * (1.0 - tx) + f[[y1, x1]] * tx;
+        let above = self.force(y0, x0) * (1.0 - tx) + self.force(y0, x1) * tx;
+        let below = self.force(y1, x0) * (1.0 - tx) + self.force(y1, x1) * tx;
         above * (1.0 - ty) + below * ty
     }
 
@@ -109,35 +180,54 @@ impl ForceField {
         let (k, next_k) = pair(column, self.width()).ok_or(outside('x'))?;
         let j = single(guarded, self.height()).ok_or(outside('x'))?;
         let (_, next_j) = pair(guarded, self.height()).ok_or(outside('y'))?;
-        let f = &self.forces;
-        let here = f[[j, k]];
-        let fx = (x - column) * (f[[j, next_k]].x - here.x) + here.x;
-        let fy = (y - guarded) * (f[[next_j, k]].y - here.y) + here.y;
+        let here = self.force(j, k);
+        let fx = (x - column) * (self.force(j, next_k).x - here.x) + here.x;
+        let fy = (y - guarded) * (self.force(next_j, k).y - here.y) + here.y;
         Ok(DVec2::new(fx, fy))
     }
 
     /// Both components as grids.
     #[must_use]
     pub fn components(&self) -> (Grid, Grid) {
-        (self.forces.mapv(|f| f.x), self.forces.mapv(|f| f.y))
+        let grid = |part: fn(DVec2) -> f64| {
+            Grid::from_shape_fn(self.dim(), |(row, column)| part(self.force(row, column)))
+        };
+        (grid(|f| f.x), grid(|f| f.y))
     }
 
     /// The length of the longest force.
     #[must_use]
     pub fn largest(&self) -> f64 {
-        self.forces
-            .iter()
-            .map(|f| f.length_squared())
-            .fold(0.0, f64::max)
-            .sqrt()
+        let row =
+            |row| (0..self.width()).map(move |column| self.force(row, column).length_squared());
+        (0..self.height()).flat_map(row).fold(0.0, f64::max).sqrt()
     }
 
     /// The same field, every force times `factor`.
+    ///
+    /// A field kept in `f32` stays so, and rounds.
     #[must_use]
     pub fn scaled(mut self, factor: f64) -> Self {
-        self.forces.mapv_inplace(|f| f * factor);
+        match &mut self.forces {
+            Forces::Double(forces) => forces.mapv_inplace(|f| f * factor),
+            Forces::Single(forces) => forces.mapv_inplace(|f| narrowed(widened(f) * factor)),
+            Forces::Tiles { factor: all, .. } => *all *= factor,
+        }
         self
     }
+}
+
+#[inline]
+fn widened([x, y]: [f32; 2]) -> DVec2 {
+    DVec2::new(f64::from(x), f64::from(y))
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounding to f32 is the point"
+)]
+fn narrowed(f: DVec2) -> [f32; 2] {
+    [f.x as f32, f.y as f32]
 }
 
 /// The two neighbours of a coordinate clamped to `0 … n−1`, and how far it is towards the second.

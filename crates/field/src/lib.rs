@@ -30,6 +30,7 @@
 
 mod edge;
 mod error;
+mod fast;
 mod force_field;
 mod gradient;
 mod grid;
@@ -40,6 +41,7 @@ mod smooth;
 
 pub use edge::{EdgeForce, EdgeStages, edge_force, edge_stages, gradient_force};
 pub use error::{FieldError, OutsideField};
+pub use fast::{FastForce, Pixel, Recipe, fast_force, lazy_force};
 pub use force_field::ForceField;
 pub use gradient::{Across, mask_x, mask_y};
 pub use grid::{Grid, LARGEST_PIXEL, LARGEST_SIGMA, MOST_PASSES};
