@@ -1,7 +1,7 @@
 //! The table of all experiments, in the order of the report.
 
 use crate::Experiment;
-use crate::experiments::{angle, damping, matrix, signal, smoothing, time_step};
+use crate::experiments::{angle, damping, disc, force_field, matrix, signal, smoothing, time_step};
 
 /// Every experiment. A new one is added here and nowhere else.
 pub const EXPERIMENTS: &[&Experiment] = &[
@@ -12,6 +12,8 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &signal::STEP,
     &signal::BOX,
     &signal::FORCE,
+    &disc::DISC,
+    &force_field::FIELD,
     &angle::ANGLE,
 ];
 
