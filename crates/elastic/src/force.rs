@@ -12,6 +12,8 @@
 //! numbers, the moments and fluxes at its two ends; the loop between them knows nothing of topology.
 //! Differences first, then weights: a curve that is only shifted feels exactly nothing from tension
 //! and rigidity, whatever the rounding.
+//!
+//! One spacing serves the whole curve; edges of their own lengths it cannot do yet.
 
 use crate::profile::Lane;
 use crate::{End, Material, Profile, Topology};
