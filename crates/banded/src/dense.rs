@@ -1,7 +1,6 @@
 //! The slow obvious twin: all n² entries, n³ operations.
 //!
-//! Every fast path of this crate is tested against it. It is also what finds a whole eigenbasis,
-//! for which narrow matrices have no short cut that keeps the vectors orthogonal.
+//! Every fast path of this crate is tested against it.
 
 use std::ops::{Index, IndexMut};
 
@@ -10,17 +9,8 @@ use crate::BandedError;
 /// A square matrix, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dense {
-    n: usize,
-    entries: Vec<f64>,
-}
-
-/// Eigenvalues in ascending order, and the eigenvector of each: orthonormal.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Eigen {
-    /// λ₀ ≤ λ₁ ≤ …
-    pub values: Vec<f64>,
-    /// `vectors[k]` belongs to `values[k]`; unit length.
-    pub vectors: Vec<Vec<f64>>,
+    pub(crate) n: usize,
+    pub(crate) entries: Vec<f64>,
 }
 
 impl Dense {
@@ -119,81 +109,6 @@ impl Dense {
             x[k] = (x[k] - known) / a[(k, k)];
         }
         Ok(x)
-    }
-
-    /// All eigenvalues and eigenvectors, by Jacobi's rotations. O(n³) a sweep, about ten sweeps.
-    ///
-    /// Only the symmetric part is looked at: the upper triangle is taken for the lower as well.
-    /// Each value is right to some units in the last place of the largest.
-    ///
-    /// # Errors
-    ///
-    /// Refuses a matrix that differs from its transpose by more than rounding, and numbers that are
-    /// not finite.
-    pub fn eigen(&self) -> Result<Eigen, BandedError> {
-        let n = self.n;
-        let mut a = self.clone();
-        let scale = a.entries.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
-        for row in 0..n {
-            for column in 0..n {
-                if !a[(row, column)].is_finite() {
-                    return Err(BandedError::NotFinite { row });
-                }
-                if (a[(row, column)] - a[(column, row)]).abs() > 1e-12 * scale {
-                    return Err(BandedError::NotSymmetric { row, column });
-                }
-            }
-        }
-        // rows of `v` turn into the eigenvectors
-        let mut v = Self::from_fn(n, |i, j| if i == j { 1.0 } else { 0.0 });
-        for _sweep in 0..64 {
-            let mut rotated = false;
-            for p in 0..n {
-                for q in p + 1..n {
-                    rotated |= a.rotate(&mut v, p, q, scale);
-                }
-            }
-            if !rotated {
-                break;
-            }
-        }
-        let mut order: Vec<usize> = (0..n).collect();
-        order.sort_by(|&i, &j| a[(i, i)].total_cmp(&a[(j, j)]));
-        Ok(Eigen {
-            values: order.iter().map(|&i| a[(i, i)]).collect(),
-            vectors: order
-                .iter()
-                .map(|&i| v.entries[i * n..(i + 1) * n].to_vec())
-                .collect(),
-        })
-    }
-
-    /// One rotation that makes `A[p][q]` zero; false when it already is, to rounding.
-    fn rotate(&mut self, v: &mut Self, p: usize, q: usize, scale: f64) -> bool {
-        let n = self.n;
-        let off = self[(p, q)];
-        let (app, aqq) = (self[(p, p)], self[(q, q)]);
-        let small = f64::EPSILON * (app * aqq).abs().sqrt().max(1e-4 * f64::EPSILON * scale);
-        if off.abs() <= small {
-            return false;
-        }
-        let theta = (aqq - app) / (2.0 * off);
-        let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
-        let c = 1.0 / (t * t + 1.0).sqrt();
-        let s = t * c;
-        let turn = |x: f64, y: f64| (c * x - s * y, s * x + c * y);
-        for k in 0..n {
-            if k != p && k != q {
-                let (kp, kq) = turn(self[(k, p)], self[(k, q)]);
-                (self[(k, p)], self[(p, k)]) = (kp, kp);
-                (self[(k, q)], self[(q, k)]) = (kq, kq);
-            }
-            let (vp, vq) = turn(v[(p, k)], v[(q, k)]);
-            (v[(p, k)], v[(q, k)]) = (vp, vq);
-        }
-        (self[(p, p)], self[(q, q)]) = (app - t * off, aqq + t * off);
-        (self[(p, q)], self[(q, p)]) = (0.0, 0.0);
-        true
     }
 }
 

@@ -27,6 +27,7 @@ mod chain;
 mod circulant;
 mod complex;
 mod dense;
+mod eigen;
 mod error;
 mod factor;
 mod lanes;
@@ -41,7 +42,8 @@ mod wide;
 
 pub use circulant::Circulant;
 pub use complex::{Complex, ComplexFactor, ComplexPoint};
-pub use dense::{Dense, Eigen};
+pub use dense::Dense;
+pub use eigen::Eigen;
 pub use error::BandedError;
 pub use factor::Factor;
 pub use lanes::{LaneFactor, LanePoint, Lanes};

@@ -189,6 +189,10 @@ proptest! {
     fn eigenvectors_diagonalise((a, _) in with_vector()) {
         let dense = a.dense();
         let eigen = dense.eigen().unwrap();
+        let twin = dense.eigen_by_rotations().unwrap();
+        for (value, twin) in eigen.values.iter().zip(&twin.values) {
+            prop_assert!((value - twin).abs() <= 1e-13 * a.norm());
+        }
         for (k, (value, vector)) in eigen.values.iter().zip(&eigen.vectors).enumerate() {
             for (image, v) in dense.multiply(vector).iter().zip(vector) {
                 // some hundreds of rotations pass over each row, each adds half a unit
@@ -332,6 +336,74 @@ fn shifted_operator_is_the_sum() {
     let shifted = operator.shifted(2.0, &[1.0, 2.0, 3.0, 4.0, 5.0]).dense();
     assert_eq!(shifted.rows().next().unwrap(), [4.0, 3.0, 1.0, 1.0, 1.0]);
     assert_eq!(shifted.rows().last().unwrap(), [1.0, 1.0, 1.0, 1.0, 6.0]);
+}
+
+#[test]
+fn taking_the_mean_out_leaves_the_residual_at_rounding() {
+    for n in [5, 50, 1000] {
+        // ends held at rest: K 1 is not zero, so both columns matter
+        let mut k = Pentadiagonal::new(n, false).unwrap();
+        k.add_identity(6.0e3 + 2.0);
+        (1..n).for_each(|i| k.add(i - 1, i, -4.0e3 - 1.0));
+        (2..n).for_each(|i| k.add(i - 2, i, 1.0e3));
+        let mut sums = vec![0.0; n];
+        k.multiply_scalars_into(&vec![1.0; n], &mut sums);
+        let size = 1.0 / f64::from(u32::try_from(n).unwrap());
+        let whole = sums.iter().sum::<f64>() * size * size;
+        let norm = k.norm();
+        let columns = vec![vec![1.0; n], sums];
+        let operator = Operator::new(k, columns, vec![whole, -size, -size, 0.0]).unwrap();
+        for exponent in [2, 7, 12] {
+            let a = operator.shifted(1.0, &vec![norm * 10.0_f64.powi(-exponent); n]);
+            let wave =
+                |i: usize| DVec2::from_angle(0.7 * f64::from(u32::try_from(i % 97).unwrap()));
+            let b: Vec<DVec2> = (0..n).map(|i| wave(i) + DVec2::X).collect();
+            let (mut x, mut product) = (b.clone(), b.clone());
+            a.factor().unwrap().solve(&mut x);
+            a.multiply_into(&x, &mut product);
+            let rest = (0..n)
+                .map(|i| (b[i] - product[i]).length())
+                .fold(0.0, f64::max);
+            let moved = x.iter().map(|x| x.length()).fold(0.0, f64::max);
+            // the product's sum over all nodes rounds by itself
+            assert!(
+                rest <= 1e-14 * norm * moved,
+                "{n} 1e{exponent}: {:e}",
+                rest / (norm * moved)
+            );
+        }
+    }
+}
+
+#[test]
+fn eigenbasis_of_a_large_or_degenerate_matrix_is_orthogonal() {
+    let ring = springs(120, true, &[1.0, 1.0, 100.0], 0.0).dense();
+    let blocks = Dense::from_fn(40, |i, j| if i / 2 == j / 2 { 1.0 } else { 0.0 });
+    for a in [
+        ring,
+        blocks,
+        Dense::from_fn(7, |_, _| 0.0),
+        Dense::from_fn(1, |_, _| -3.0),
+    ] {
+        let n = a.len();
+        let eigen = a.eigen().unwrap();
+        let norm = largest(&eigen.values);
+        for i in 0..n {
+            for j in 0..n {
+                let (v, w) = (&eigen.vectors[i], &eigen.vectors[j]);
+                let dot: f64 = v.iter().zip(w).map(|(v, w)| v * w).sum();
+                let image: f64 = v.iter().zip(a.multiply(w)).map(|(v, w)| v * w).sum();
+                let (unit, value) = if i == j {
+                    (1.0, eigen.values[i])
+                } else {
+                    (0.0, 0.0)
+                };
+                // each of n reflections and some n rotations a row add half a unit
+                assert!((dot - unit).abs() <= 1e-13, "{n}: {i} {j}");
+                assert!((image - value).abs() <= 1e-13 * norm, "{n}: {i} {j}");
+            }
+        }
+    }
 }
 
 #[test]
