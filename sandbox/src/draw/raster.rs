@@ -4,8 +4,6 @@
 use super::palette::{Color, to_byte};
 use ndarray::Array2;
 
-/// A pixel's nine points, one bit each.
-const ALL: u16 = 0x1ff;
 /// Steps of grey the palette keeps for the ground.
 const GREYS: usize = 64;
 /// Steps of grey under a border that covers a pixel in part.
@@ -91,9 +89,9 @@ impl Canvas {
             cover(&mut mask, pair[0], pair[1], width / 2.0);
         }
         for (over, &covered) in self.over.iter_mut().zip(&mask) {
-            // a border does not hide what is fully covered by a line below it
+            // who covers most of the pixel is seen; the topmost if several do
             let below = over.map_or(0, |(_, below)| below.count_ones());
-            if covered == ALL || covered.count_ones() > below {
+            if covered.count_ones() > below.min(4) {
                 *over = Some((number, covered));
             }
         }
