@@ -3,7 +3,8 @@
 use crate::error::{FieldError, OutsideField};
 use crate::fast::TileSource;
 use crate::grid::Grid;
-use glam::DVec2;
+use crate::sample::{self, Interpolation};
+use glam::{DMat2, DVec2};
 use ndarray::{Array2, Zip};
 use std::sync::Arc;
 
@@ -149,11 +150,55 @@ impl ForceField {
     /// The corrected form of report §4.2.2 (D51, D54).
     #[must_use]
     pub fn at(&self, p: DVec2) -> DVec2 {
-        let (x0, x1, tx) = cell(p.x, self.width());
-        let (y0, y1, ty) = cell(p.y, self.height());
-        let above = self.force(y0, x0) * (1.0 - tx) + self.force(y0, x1) * tx;
-        let below = self.force(y1, x0) * (1.0 - tx) + self.force(y1, x1) * tx;
-        above * (1.0 - ty) + below * ty
+        self.sample(p, Interpolation::Bilinear)
+    }
+
+    /// The force at any point, by a rule of interpolation.
+    ///
+    /// Outside the image, the force of the nearest point of the rectangle of pixel centers.
+    #[must_use]
+    pub fn sample(&self, p: DVec2, rule: Interpolation) -> DVec2 {
+        sample::value(|row, column| self.force(row, column), self.dim(), p, rule)
+    }
+
+    /// The force at any point and its slope, for schemes that look ahead: the columns are ∂F/∂x and ∂F/∂y.
+    ///
+    /// The slope is that of the interpolated force, so it jumps from pixel to pixel where the rule is bilinear.
+    /// Beyond the outermost pixel centers the force does not change, and the slope across is 0.
+    #[must_use]
+    pub fn sample_with_slope(&self, p: DVec2, rule: Interpolation) -> (DVec2, DMat2) {
+        sample::value_and_slope(|row, column| self.force(row, column), self.dim(), p, rule)
+    }
+
+    /// [`ForceField::sample`] at many points: the shorter of the two slices says how many.
+    pub fn sample_into(&self, points: &[DVec2], rule: Interpolation, forces: &mut [DVec2]) {
+        let dim = self.dim();
+        let pairs = points.iter().zip(forces);
+        // asked once, not at every pixel, where the forces are
+        match &self.forces {
+            Forces::Double(f) => {
+                let force = |row, column| f[[row, column]];
+                pairs.for_each(|(&p, out)| *out = sample::value(force, dim, p, rule));
+            }
+            Forces::Single(f) => {
+                let force = |row, column| widened(f[[row, column]]);
+                pairs.for_each(|(&p, out)| *out = sample::value(force, dim, p, rule));
+            }
+            Forces::Tiles { .. } => pairs.for_each(|(&p, out)| *out = self.sample(p, rule)),
+        }
+    }
+
+    /// [`ForceField::sample_with_slope`] at many points: the shortest slice says how many.
+    pub fn sample_with_slope_into(
+        &self,
+        points: &[DVec2],
+        rule: Interpolation,
+        forces: &mut [DVec2],
+        slopes: &mut [DMat2],
+    ) {
+        for ((&p, force), slope) in points.iter().zip(forces).zip(slopes) {
+            (*force, *slope) = self.sample_with_slope(p, rule);
+        }
     }
 
     /// The force at a point by the rule of the report's program.
@@ -228,20 +273,6 @@ fn widened([x, y]: [f32; 2]) -> DVec2 {
 )]
 fn narrowed(f: DVec2) -> [f32; 2] {
     [f.x as f32, f.y as f32]
-}
-
-/// The two neighbours of a coordinate clamped to `0 … n−1`, and how far it is towards the second.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "clamped to 0 … n−1 before"
-)]
-fn cell(x: f64, n: usize) -> (usize, usize, f64) {
-    let last = n - 1;
-    let x = x.clamp(0.0, last as f64);
-    // NaN stays NaN and is cell 0: the weight carries it into the force
-    let first = (x.floor() as usize).min(last.saturating_sub(1));
-    (first, (first + 1).min(last), x - first as f64)
 }
 
 /// The zero-based index of a whole number counted from 1, if it is one of `n`.

@@ -36,6 +36,7 @@ mod gradient;
 mod grid;
 pub mod literal;
 mod report;
+mod sample;
 pub mod signal;
 mod smooth;
 
@@ -46,4 +47,5 @@ pub use force_field::ForceField;
 pub use gradient::{Across, mask_x, mask_y};
 pub use grid::{Grid, LARGEST_PIXEL, LARGEST_SIGMA, MOST_PASSES};
 pub use report::{REPORT_GAIN, REPORT_SCALE, ReportStages, report_force, report_stages};
+pub use sample::Interpolation;
 pub use smooth::{REPORT_PASSES, Smoothing, binomial_x, binomial_y, gaussian_weights};
