@@ -21,6 +21,8 @@ pub(crate) struct Moment {
     pub(crate) dt: f64,
     /// How far the velocities are behind the positions.
     pub(crate) lag: f64,
+    /// Whether they are still so after a touch.
+    pub(crate) stays: bool,
 }
 
 /// Scratch space for contacts.
@@ -86,7 +88,7 @@ impl Contacts {
         v: &mut [DVec2],
         solver: Option<&mut Solver>,
     ) -> Result<bool, Fault> {
-        let Moment { t, dt, lag } = moment;
+        let Moment { t, dt, .. } = moment;
         if !self.find(system, dt, before, x, v) {
             return Ok(false);
         }
@@ -119,7 +121,7 @@ impl Contacts {
             let i = touch.node;
             v[i] = match touch.velocity {
                 None => (touch.position - before[i]) / dt,
-                Some(asked) if leaves => self.tamed(system.mass()[i], lag, i, v[i], asked),
+                Some(asked) if leaves => self.tamed(system.mass()[i], moment, i, v[i], asked),
                 Some(asked) => asked,
             };
         }
@@ -127,7 +129,7 @@ impl Contacts {
     }
 
     /// The velocity asked for, its part away from the obstacle no larger than energy allows.
-    fn tamed(&self, mass: f64, lag: f64, i: usize, v: DVec2, asked: DVec2) -> DVec2 {
+    fn tamed(&self, mass: f64, moment: Moment, i: usize, v: DVec2, asked: DVec2) -> DVec2 {
         let Some(away) = self.shift[i].try_normalize() else {
             return asked;
         };
@@ -138,13 +140,14 @@ impl Contacts {
         // U(after) − U(before) of this node's move: −F·δ − ½ δ·Aδ with F where it was put
         let gained = -self.force[i].dot(self.shift[i]) - 0.5 * self.product[i].dot(self.shift[i]);
         let late = v.dot(away);
-        let full = late + lag * self.force[i].dot(away) / mass;
-        let into = if full < 0.0 {
-            late.abs().min(full.abs())
-        } else {
-            0.0
-        };
-        let most = (into * into - 2.0 * gained / mass).max(0.0).sqrt();
+        // what the force on it does until velocity and position are of the same time
+        let catch_up = moment.lag * self.force[i].dot(away) / mass;
+        let full = late + catch_up;
+        let into = if full < 0.0 { late.abs().min(full.abs()) } else { 0.0 };
+        let mut most = (into * into - 2.0 * gained / mass).max(0.0).sqrt();
+        if moment.stays {
+            most = (most - catch_up).max(0.0);
+        }
         asked + away * (out.min(most) - out)
     }
 }

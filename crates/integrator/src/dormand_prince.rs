@@ -291,7 +291,7 @@ impl DormandPrince {
         let moment = Moment {
             t: t + h,
             dt: h,
-            lag: 0.0,
+            lag: 0.0, stays: false,
         };
         let State { x, v, .. } = &mut self.to;
         let touched = self.contacts.meet(system, moment, &self.from.x, x, v)?;

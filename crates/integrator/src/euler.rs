@@ -157,7 +157,7 @@ impl Stepper for Euler {
         let moment = Moment {
             t: end,
             dt,
-            lag: 0.0,
+            lag: 0.0, stays: false,
         };
         let (x, v) = (&mut self.next_x, &mut self.next_v);
         self.contacts

@@ -134,6 +134,7 @@ impl Stepper for Leapfrog {
             t,
             dt,
             lag: 0.5 * dt,
+            stays: false,
         };
         let (next, half) = (&mut self.next, &mut self.half);
         let touched = self.contacts.meet(system, moment, &state.x, next, half)?;

@@ -24,12 +24,16 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod collocation;
 mod contact;
 mod dormand_prince;
 mod error;
 mod euler;
+mod exact;
 mod leapfrog;
 mod limits;
+mod linear;
+mod modes;
 mod newmark;
 mod oscillator;
 pub mod problems;
@@ -41,6 +45,7 @@ mod scheme;
 mod solver;
 mod stepper;
 mod system;
+mod tableau;
 
 #[cfg(test)]
 mod tests;

@@ -163,7 +163,7 @@ impl Stepper for GeneralizedAlpha {
         let moment = Moment {
             t: t + dt,
             dt,
-            lag: 0.0,
+            lag: 0.0, stays: false,
         };
         let (x, v) = (&mut self.next_x, &mut self.next_v);
         if self
@@ -261,7 +261,7 @@ impl Stepper for Newmark {
         let moment = Moment {
             t: t + dt,
             dt,
-            lag: 0.0,
+            lag: 0.0, stays: false,
         };
         self.contacts
             .meet_with(system, moment, &state.x, x, v, Some(&mut self.solver))?;

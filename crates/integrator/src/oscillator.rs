@@ -99,12 +99,13 @@ impl Oscillator {
         } else {
             let phase = (-square).sqrt();
             let (up, down) = ((phase - half).exp(), (-phase - half).exp());
-            let sinh = if phase < 1e-4 {
-                (-half).exp() * (1.0 - square / 6.0)
+            // (eᵖ − e⁻ᵖ) / 2p, without the difference where it would cancel
+            let rise = if phase < 1.0 {
+                down * phi1(2.0 * phase)
             } else {
                 0.5 * (up - down) / phase
             };
-            (0.5 * (up + down), sinh)
+            (0.5 * (up + down), rise)
         };
         let kick = t * sinc;
         let keep = cos - half * sinc;
@@ -115,11 +116,6 @@ impl Oscillator {
             push,
             ramp: (t - kick - c * push) / stiffness,
         }
-    }
-
-    /// Position and velocity from a unit position: `1 − λ Q` and `−λ G`.
-    pub(crate) fn swing(self, stiffness: f64) -> (f64, f64) {
-        (1.0 - stiffness * self.push, -stiffness * self.kick)
     }
 }
 

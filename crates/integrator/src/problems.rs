@@ -50,6 +50,11 @@ impl Springs {
             deformation: vec![DVec2::ZERO; n],
         }
     }
+
+    /// Couple the nodes otherwise.
+    pub fn set_stiffness(&mut self, stiffness: Operator) {
+        self.stiffness = stiffness;
+    }
 }
 
 impl System for Springs {

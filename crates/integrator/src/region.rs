@@ -107,9 +107,49 @@ impl Scheme {
                 let step = (push - l * x + inertia) / (2.25 + 1.5 * a + l);
                 [x + step, x, 0.5 * (3.0 * step - d), w]
             }),
+            Self::LinearlyImplicit => {
+                let s = 1.0 + a + l + k;
+                quadratic((l + k + q - 1.0) / s - 1.0, (1.0 - q) / s)
+            }
+            Self::Gauss4 => along_roots(a + q, l + k, |z| {
+                over(polynomial(z, &GAUSS), polynomial((-z.0, -z.1), &GAUSS))
+            }),
+            Self::Radau5 => along_roots(a + q, l + k, |z| {
+                over(polynomial(z, &RADAU_ABOVE), polynomial(z, &RADAU_BELOW))
+            }),
+            Self::Exact => radius::<2>(|[x, w]| {
+                let [x, w] = kick(m, [x, w]);
+                kick(m, flow(m, [x, w], -l * x))
+            }),
+            Self::Etd2 => {
+                let response = Oscillator::new(a, l, 1.0);
+                radius::<2>(|[x, w]| {
+                    let push = m.external(x, w);
+                    let [later, fast] = flow(m, [x, w], push - l * x);
+                    let change = m.external(later, fast) - push;
+                    [
+                        later + response.ramp * change,
+                        fast + response.push * change,
+                    ]
+                })
+            }
             Self::GradientFlow => f64::NAN,
         }
     }
+}
+
+/// Half a kick by the external force.
+fn kick(mode: Scaled, [x, w]: [f64; 2]) -> [f64; 2] {
+    [x, w + 0.5 * mode.external(x, w)]
+}
+
+/// The exact motion over one step under the force `push`.
+fn flow(mode: Scaled, [x, w]: [f64; 2], push: f64) -> [f64; 2] {
+    let response = Oscillator::new(mode.a, mode.l, 1.0);
+    [
+        x + response.kick * w + response.push * push,
+        response.keep * w + response.kick * push,
+    ]
 }
 
 /// Generalized-α in units of the step, with `b = dt² a`.
@@ -139,11 +179,21 @@ const DP5: [f64; 7] = [
     1.0 / 600.0,
 ];
 
+const GAUSS: [f64; 3] = [1.0, 1.0 / 2.0, 1.0 / 12.0];
+const RADAU_ABOVE: [f64; 3] = [1.0, 2.0 / 5.0, 1.0 / 20.0];
+const RADAU_BELOW: [f64; 4] = [1.0, -3.0 / 5.0, 3.0 / 20.0, -1.0 / 60.0];
+
 /// A complex number, as far as it is needed here.
 type Pair = (f64, f64);
 
 fn times(p: Pair, q: Pair) -> Pair {
     (p.0 * q.0 - p.1 * q.1, p.0 * q.1 + p.1 * q.0)
+}
+
+fn over(p: Pair, q: Pair) -> Pair {
+    let size = q.0 * q.0 + q.1 * q.1;
+    let (re, im) = times(p, (q.0, -q.1));
+    (re / size, im / size)
 }
 
 fn polynomial(z: Pair, coefficients: &[f64]) -> Pair {

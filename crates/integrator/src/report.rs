@@ -98,7 +98,7 @@ impl Stepper for Report {
         let moment = Moment {
             t: state.t + dt,
             dt,
-            lag: 0.0,
+            lag: 0.5 * dt, stays: true,
         };
         let next = &mut self.next;
         if self
@@ -130,7 +130,8 @@ impl Stepper for Report {
 /// never ends or an argument is not finite.
 #[must_use]
 pub fn report_steps(end: f64, dt: f64) -> Option<u64> {
-    if !(end.is_finite() && dt.is_finite() && dt > 0.0) {
+    let most = 2.0_f64.powi(40);
+    if !(end.is_finite() && dt.is_finite() && dt > 0.0 && end / dt < most) {
         return None;
     }
     let (mut t, mut steps) = (0.0, 0);

@@ -163,7 +163,7 @@ impl Stepper for Rk4 {
         let moment = Moment {
             t: t + dt,
             dt,
-            lag: 0.0,
+            lag: 0.0, stays: false,
         };
         self.contacts
             .meet(system, moment, &state.x, &mut self.next_x, &mut self.next_v)?;

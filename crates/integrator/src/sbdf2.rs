@@ -115,7 +115,7 @@ impl Stepper for Sbdf2 {
         let moment = Moment {
             t: t + dt,
             dt,
-            lag: 0.0,
+            lag: 0.0, stays: false,
         };
         let (x, v) = (&mut self.next_x, &mut self.next_v);
         let solver = self.starter.as_mut().unwrap_or(&mut self.solver);

@@ -3,13 +3,17 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::collocation::Collocation;
 use crate::dormand_prince::DormandPrince;
 use crate::euler::{Euler, Rule};
+use crate::exact::{Exact, Join};
 use crate::leapfrog::Leapfrog;
+use crate::linear::LinearlyImplicit;
 use crate::newmark::{GeneralizedAlpha, Newmark};
 use crate::report::Report;
 use crate::rk4::Rk4;
 use crate::sbdf2::Sbdf2;
+use crate::tableau::Method;
 use crate::{SchemeError, Start, State, Stepper, System, limits};
 
 /// Which scheme moves a system through time.
@@ -42,6 +46,16 @@ pub enum Scheme {
     },
     /// Backward differences, external forces extrapolated. Order 2.
     Sbdf2,
+    /// As imex, with the slope of the external force in the matrix. Order 1.
+    LinearlyImplicit,
+    /// Gauss's collocation with two stages: keeps energy. Order 4.
+    Gauss4,
+    /// Radau's collocation with three stages: forgets what is too fast. Order 5.
+    Radau5,
+    /// Each mode exactly, external forces as kicks. No error without them, order 2 with them.
+    Exact,
+    /// Each mode exactly, external forces linear over the step. Order 2.
+    Etd2,
 }
 
 /// What there is to say about a scheme.
@@ -66,6 +80,11 @@ impl Scheme {
         Self::Newmark,
         Self::GeneralizedAlpha { rho: 0.8 },
         Self::Sbdf2,
+        Self::LinearlyImplicit,
+        Self::Gauss4,
+        Self::Radau5,
+        Self::Exact,
+        Self::Etd2,
     ];
 
     const fn facts(self) -> Facts {
@@ -139,6 +158,41 @@ impl Scheme {
                 source: "[ascher95]",
                 order: 2,
                 cost: "one force, one solve",
+            },
+            Self::LinearlyImplicit => Facts {
+                name: LinearlyImplicit::NAME,
+                summary: "the image's slope in the matrix too: large steps on stiff edges",
+                source: "[baraff98]",
+                order: 1,
+                cost: "one force and its slope, one factor of a wider band",
+            },
+            Self::Gauss4 => Facts {
+                name: Method::Gauss4.name(),
+                summary: "two stages by one complex solve: accurate, keeps energy",
+                source: "[hairer96] IV.5",
+                order: 4,
+                cost: "one complex solve and two external forces a round, two rounds or more",
+            },
+            Self::Radau5 => Facts {
+                name: Method::Radau5.name(),
+                summary: "three stages by a real and a complex solve: accurate however stiff",
+                source: "[hairer96] IV.8",
+                order: 5,
+                cost: "a real and a complex solve, three external forces a round, two or more",
+            },
+            Self::Exact => Facts {
+                name: Join::Kicks.name(),
+                summary: "every mode exactly, at any step; external forces as kicks",
+                source: "[strang68]; modes after [davis79]",
+                order: 2,
+                cost: "one force, two transforms there and two back: O(n log n), or O(n²)",
+            },
+            Self::Etd2 => Facts {
+                name: Join::Ramp.name(),
+                summary: "every mode exactly; constant external forces exactly as well",
+                source: "[cox02]",
+                order: 2,
+                cost: "two external forces, seven transforms: O(n log n), or O(n²)",
             },
         }
     }
@@ -256,6 +310,11 @@ impl Scheme {
                 Box::new(GeneralizedAlpha::new(system, state, dt, rho)?)
             }
             Self::Sbdf2 => Box::new(Sbdf2::new(system, state, dt)?),
+            Self::LinearlyImplicit => Box::new(LinearlyImplicit::new(system, state, dt)?),
+            Self::Gauss4 => Box::new(Collocation::new(Method::Gauss4, system, state, dt)?),
+            Self::Radau5 => Box::new(Collocation::new(Method::Radau5, system, state, dt)?),
+            Self::Exact => Box::new(Exact::new(Join::Kicks, system, state, dt)?),
+            Self::Etd2 => Box::new(Exact::new(Join::Ramp, system, state, dt)?),
         })
     }
 }

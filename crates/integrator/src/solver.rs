@@ -74,6 +74,11 @@ impl Solver {
         Ok(true)
     }
 
+    /// `S`.
+    pub(crate) fn matrix(&self) -> &Operator {
+        &self.matrix
+    }
+
     /// Turn the forces `b` into the increment `S⁻¹ b`; `b` must be zero at held nodes.
     pub(crate) fn solve(&self, b: &mut [DVec2]) {
         self.factor.solve(b);

@@ -1,3 +1,8 @@
 //! Every scheme against exact motions: orders, borders of stability, energies, refusals.
 
+mod contact;
+mod exact;
 mod order;
+mod recurrence;
+mod refusal;
+mod stability;

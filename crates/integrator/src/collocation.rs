@@ -1,0 +1,267 @@
+//! High order at one complex solve a step.
+//!
+//! A collocation method solves for all its stages at once. For `μ v̇ + γ v + A x = f` its equations
+//! fall apart into one banded system for each eigenvalue `z` of the inverse of its coefficients,
+//! `(z² μ/dt² + z γ/dt + A) ξ = …`, and of a complex pair only one is needed.
+
+use banded::{Complex, ComplexOperatorFactor, ComplexPoint};
+use glam::DVec2;
+
+use crate::contact::{Contacts, Moment};
+use crate::solver::Solver;
+use crate::stepper::{self, Clock, Mass};
+use crate::tableau::{Method, Tableau};
+use crate::{Fault, SchemeError, State, Stepper, System};
+
+/// How often the external forces at the stages are asked for again.
+const ROUNDS: usize = 30;
+
+/// When two rounds agree, relative to the largest external force.
+const AGREEMENT: f64 = 1e-13;
+
+/// Gauss's method of order 4 or Radau's of order 5, external forces at every stage.
+///
+/// External forces are found in rounds with the same factors: two when they do not depend on
+/// positions, a few when they change less over a step than inertia and stiffness resist. Where they
+/// change more, rounds stop when they no longer approach each other, and order is lost.
+#[derive(Debug)]
+pub(crate) struct Collocation {
+    method: Method,
+    tableau: Tableau,
+    clock: Clock,
+    /// The real eigenvalue's system; for Gauss's method, which has none, only for contacts.
+    real: Solver,
+    complex: ComplexOperatorFactor,
+    shift: Vec<Complex>,
+    elastic: Vec<DVec2>,
+    /// External forces at the stages.
+    forces: Vec<Vec<DVec2>>,
+    /// How far each stage is from the start.
+    offsets: Vec<Vec<DVec2>>,
+    fresh: Vec<DVec2>,
+    real_part: Vec<DVec2>,
+    complex_part: Vec<ComplexPoint>,
+    next_x: Vec<DVec2>,
+    next_v: Vec<DVec2>,
+    contacts: Contacts,
+}
+
+impl Collocation {
+    pub(crate) fn new(
+        method: Method,
+        system: &mut dyn System,
+        state: &State,
+        dt: f64,
+    ) -> Result<Self, SchemeError> {
+        system.advance(state.t);
+        let name = method.name();
+        stepper::check(name, system, state, dt, method.need())?;
+        let tableau = Tableau::new(method);
+        let n = state.len();
+        // a contact is met as the trapezoidal rule would where there is no real system
+        let z = tableau.real.map_or(2.0, |real| real.z);
+        let weights = (z * z / (dt * dt), z / dt);
+        let mut shift = vec![Complex::default(); n];
+        fill(&mut shift, system, tableau.complex.z, dt);
+        let zeros = || vec![DVec2::ZERO; n];
+        Ok(Self {
+            method,
+            clock: Clock::new(state, dt),
+            real: Solver::new(name, method.need(), system, weights)?,
+            complex: system.stiffness().factor_shifted(&shift)?,
+            shift,
+            elastic: zeros(),
+            forces: vec![zeros(); tableau.stages],
+            offsets: vec![zeros(); tableau.stages],
+            fresh: zeros(),
+            real_part: zeros(),
+            complex_part: vec![ComplexPoint::default(); n],
+            next_x: zeros(),
+            next_v: zeros(),
+            contacts: Contacts::new(n),
+            tableau,
+        })
+    }
+
+    fn advance(&mut self, system: &mut dyn System, t: f64, x: &[DVec2]) -> Result<(), Fault> {
+        if self.real.advance(system, t, x)? {
+            fill(
+                &mut self.shift,
+                system,
+                self.tableau.complex.z,
+                self.clock.dt,
+            );
+            let factor = system.stiffness().factor_shifted(&self.shift);
+            self.complex = factor.map_err(|_| stepper::unsolvable(x))?;
+        }
+        Ok(())
+    }
+
+    /// Solve for all stages with the external forces as they are.
+    fn solve(&mut self, system: &dyn System, v: &[DVec2]) {
+        let (mass, held, dt) = (system.mass(), system.held(), self.clock.dt);
+        let stages = self.tableau.stages;
+        let complex = self.tableau.complex;
+        let total = complex.left[..stages]
+            .iter()
+            .fold(Complex::default(), |sum, &p| sum + p);
+        for i in 0..v.len() {
+            let mut sum = ComplexPoint::default();
+            if !held[i] {
+                let start = self.elastic[i];
+                sum = ComplexPoint::from(start) * total
+                    + ComplexPoint::from(mass[i] / dt * v[i]) * (complex.z * total);
+                for (force, &p) in self.forces.iter().zip(&complex.left) {
+                    sum = sum + ComplexPoint::from(force[i]) * p;
+                }
+            }
+            self.complex_part[i] = sum;
+        }
+        self.complex.solve(&mut self.complex_part);
+        if let Some(real) = self.tableau.real {
+            let total: f64 = real.left[..stages].iter().sum();
+            for i in 0..v.len() {
+                let mut sum = DVec2::ZERO;
+                if !held[i] {
+                    sum = total * (self.elastic[i] + real.z * mass[i] / dt * v[i]);
+                    for (force, &p) in self.forces.iter().zip(&real.left) {
+                        sum += p * force[i];
+                    }
+                }
+                self.real_part[i] = sum;
+            }
+            self.real.solve(&mut self.real_part);
+        }
+        for (stage, offset) in self.offsets.iter_mut().enumerate() {
+            let u = complex.right[stage];
+            for i in 0..v.len() {
+                let pair = self.complex_part[i];
+                offset[i] = 2.0 * (u.re * pair.re - u.im * pair.im);
+            }
+            if let Some(real) = self.tableau.real {
+                for (offset, part) in offset.iter_mut().zip(&self.real_part) {
+                    *offset += real.right[stage] * *part;
+                }
+            }
+        }
+    }
+
+    /// Position and velocity at a stage, in `next_x` and `next_v`.
+    fn place(&mut self, stage: usize, x: &[DVec2]) {
+        let dt = self.clock.dt;
+        for i in 0..x.len() {
+            let mut v = DVec2::ZERO;
+            for (j, offset) in self.offsets.iter().enumerate() {
+                v += self.tableau.inverse[stage][j] * offset[i];
+            }
+            self.next_x[i] = x[i] + self.offsets[stage][i];
+            self.next_v[i] = v / dt;
+        }
+    }
+
+    /// Solve, ask for the external forces again, and so on until they stay the same.
+    fn settle(&mut self, system: &mut dyn System, state: &State) -> Result<(), Fault> {
+        let (t, dt) = (self.clock.now(), self.clock.dt);
+        let mut change = f64::INFINITY;
+        for _ in 0..ROUNDS {
+            self.solve(system, &state.v);
+            let (mut moved, mut size) = (0.0_f64, 0.0_f64);
+            for stage in 0..self.tableau.stages {
+                self.place(stage, &state.x);
+                stepper::finite(&self.next_x)?;
+                let at = t + self.tableau.nodes[stage] * dt;
+                stepper::external(system, at, &self.next_x, &self.next_v, &mut self.fresh)?;
+                for (old, &new) in self.forces[stage].iter_mut().zip(&self.fresh) {
+                    moved = moved.max((new - *old).abs().max_element());
+                    size = size.max(new.abs().max_element());
+                    *old = new;
+                }
+            }
+            if moved <= AGREEMENT * size {
+                return Ok(());
+            }
+            if moved >= change {
+                break;
+            }
+            change = moved;
+        }
+        self.solve(system, &state.v);
+        Ok(())
+    }
+
+    /// The end of the step from its stages.
+    fn finish(&mut self, state: &State) {
+        if self.method == Method::Radau5 {
+            self.place(2, &state.x);
+            return;
+        }
+        // x⁺ = x + √3 (ξ₂ − ξ₁), and the same for velocities
+        let root = 3.0_f64.sqrt();
+        self.place(0, &state.x);
+        for i in 0..state.len() {
+            self.fresh[i] = self.next_v[i];
+        }
+        self.place(1, &state.x);
+        for i in 0..state.len() {
+            self.next_x[i] = state.x[i] + root * (self.offsets[1][i] - self.offsets[0][i]);
+            self.next_v[i] = state.v[i] + root * (self.next_v[i] - self.fresh[i]);
+        }
+    }
+}
+
+impl Stepper for Collocation {
+    fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
+        let (dt, t) = (self.clock.dt, self.clock.now());
+        self.advance(system, t + 0.5 * dt, &state.x)?;
+        system.elastic(&state.x, &mut self.elastic);
+        for (stage, force) in self.forces.iter_mut().enumerate() {
+            let at = t + self.tableau.nodes[stage] * dt;
+            stepper::external(system, at, &state.x, &state.v, force)?;
+        }
+        self.settle(system, state)?;
+        self.finish(state);
+        for (v, &held) in self.next_v.iter_mut().zip(system.held()) {
+            if held {
+                *v = DVec2::ZERO;
+            }
+        }
+        stepper::finite(&self.next_x)?;
+        let moment = Moment {
+            t: t + dt,
+            dt,
+            lag: 0.0, stays: false,
+        };
+        let (x, v) = (&mut self.next_x, &mut self.next_v);
+        self.contacts
+            .meet_with(system, moment, &state.x, x, v, Some(&mut self.real))?;
+        std::mem::swap(&mut state.x, x);
+        std::mem::swap(&mut state.v, v);
+        self.clock.tick(state);
+        Ok(())
+    }
+
+    fn dt(&self) -> f64 {
+        self.clock.dt
+    }
+}
+
+fn fill(shift: &mut [Complex], system: &dyn System, z: Complex, dt: f64) {
+    let (p, q) = (z * z * (1.0 / (dt * dt)), z * (1.0 / dt));
+    for (i, shift) in shift.iter_mut().enumerate() {
+        *shift = if system.held()[i] {
+            Complex::from(1.0)
+        } else {
+            p * system.mass()[i] + q * system.damping()[i]
+        };
+    }
+}
+
+impl Method {
+    /// Radau's velocities come from the positions alone, so it does without mass.
+    const fn need(self) -> Mass {
+        match self {
+            Self::Gauss4 => Mass::Needed,
+            Self::Radau5 => Mass::Optional,
+        }
+    }
+}

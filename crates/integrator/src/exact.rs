@@ -1,0 +1,238 @@
+//! Elastic motion without any error of the step.
+
+use glam::DVec2;
+
+use crate::contact::{Contacts, Moment};
+use crate::modes::Modes;
+use crate::oscillator::Oscillator;
+use crate::stepper::{self, Clock, Mass};
+use crate::{Fault, SchemeError, State, Stepper, System};
+
+/// How external forces join the exact motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Join {
+    /// Half a kick, the motion, half a kick ([strang68]).
+    Kicks,
+    /// Constant over the step, then corrected by how it changed ([cox02]).
+    Ramp,
+}
+
+impl Join {
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Kicks => "exact",
+            Self::Ramp => "etd2",
+        }
+    }
+}
+
+/// Each mode as the damped oscillator it is.
+///
+/// ```text
+/// x⁺ = x + G v + Q a,   v⁺ = Ġ v + G a,   a = elastic(x)/μ,   G̈ + c Ġ + λ G = 0 per mode
+/// ```
+///
+/// Exact for any step when no external force acts; all regimes and the double root. With
+/// [`Join::Kicks`], v gets half of `dt f / μ` before and half after. With [`Join::Ramp`], `a` holds `f` as
+/// well, and the step is corrected by `W Δf / dt` and `Q Δf / dt` with `Δf` its change over the step, so
+/// that constant forces are exact too.
+#[derive(Debug)]
+pub(crate) struct Exact {
+    join: Join,
+    clock: Clock,
+    modes: Modes,
+    responses: Vec<Oscillator>,
+    /// Whether `external` holds the force at the state.
+    ready: bool,
+    external: Vec<DVec2>,
+    later: Vec<DVec2>,
+    force: Vec<DVec2>,
+    mode_v: Vec<DVec2>,
+    mode_a: Vec<DVec2>,
+    next_x: Vec<DVec2>,
+    next_v: Vec<DVec2>,
+    contacts: Contacts,
+}
+
+impl Exact {
+    pub(crate) fn new(
+        join: Join,
+        system: &mut dyn System,
+        state: &State,
+        dt: f64,
+    ) -> Result<Self, SchemeError> {
+        system.advance(state.t);
+        stepper::check(join.name(), system, state, dt, Mass::Needed)?;
+        let modes = Modes::new(join.name(), system)?;
+        let zeros = || vec![DVec2::ZERO; state.len()];
+        let mut stepper = Self {
+            join,
+            clock: Clock::new(state, dt),
+            modes,
+            responses: Vec::with_capacity(state.len()),
+            ready: false,
+            external: zeros(),
+            later: zeros(),
+            force: zeros(),
+            mode_v: zeros(),
+            mode_a: zeros(),
+            next_x: zeros(),
+            next_v: zeros(),
+            contacts: Contacts::new(state.len()),
+        };
+        stepper.respond();
+        Ok(stepper)
+    }
+
+    fn respond(&mut self) {
+        let (c, dt) = (self.modes.damping, self.clock.dt);
+        self.responses.clear();
+        self.responses.extend(
+            self.modes
+                .stiffness
+                .iter()
+                .map(|&k| Oscillator::new(c, k, dt)),
+        );
+    }
+
+    /// Bring the system to time `t`, and the modes with it.
+    fn advance(&mut self, system: &mut dyn System, t: f64, x: &[DVec2]) -> Result<(), Fault> {
+        if !system.advance(t) {
+            return Ok(());
+        }
+        let name = self.join.name();
+        self.modes = stepper::densities(name, system, Mass::Needed)
+            .and_then(|()| Modes::new(name, system))
+            .map_err(|_| stepper::unsolvable(x))?;
+        self.respond();
+        Ok(())
+    }
+
+    /// From `x` and the velocities in `next_v` with the forces in `force`, into `next_x`, `next_v`.
+    fn flow(&mut self, system: &dyn System, x: &[DVec2]) {
+        let (mass, held) = (system.mass(), system.held());
+        for i in 0..x.len() {
+            if held[i] {
+                (self.force[i], self.next_v[i]) = (DVec2::ZERO, DVec2::ZERO);
+            } else {
+                self.force[i] /= mass[i];
+            }
+        }
+        self.modes.amplitudes(&self.next_v, &mut self.mode_v);
+        self.modes.amplitudes(&self.force, &mut self.mode_a);
+        for (response, (v, a)) in self
+            .responses
+            .iter()
+            .zip(self.mode_v.iter_mut().zip(&mut self.mode_a))
+        {
+            let (speed, push) = (*v, *a);
+            *v = response.kick * speed + response.push * push;
+            *a = response.keep * speed + response.kick * push;
+        }
+        self.modes.points(&self.mode_v, &mut self.next_x);
+        self.modes.points(&self.mode_a, &mut self.next_v);
+        for i in 0..x.len() {
+            // transforms leave rounding where nothing may move
+            self.next_x[i] = if held[i] { x[i] } else { x[i] + self.next_x[i] };
+            if held[i] {
+                self.next_v[i] = DVec2::ZERO;
+            }
+        }
+    }
+
+    /// Add what the change of the external force from `external` to `later` does.
+    fn correct(&mut self, system: &dyn System) {
+        let dt = self.clock.dt;
+        let (mass, held) = (system.mass(), system.held());
+        for i in 0..self.later.len() {
+            self.force[i] = if held[i] {
+                DVec2::ZERO
+            } else {
+                (self.later[i] - self.external[i]) / (mass[i] * dt)
+            };
+        }
+        self.modes.amplitudes(&self.force, &mut self.mode_a);
+        for (i, response) in self.responses.iter().enumerate() {
+            self.mode_v[i] = response.ramp * self.mode_a[i];
+            self.mode_a[i] *= response.push;
+        }
+        self.modes.points(&self.mode_v, &mut self.force);
+        for i in (0..self.force.len()).filter(|&i| !held[i]) {
+            self.next_x[i] += self.force[i];
+        }
+        self.modes.points(&self.mode_a, &mut self.force);
+        for i in (0..self.force.len()).filter(|&i| !held[i]) {
+            self.next_v[i] += self.force[i];
+        }
+    }
+
+    fn kick(&mut self, system: &dyn System) {
+        let half = 0.5 * self.clock.dt;
+        for (i, v) in self.next_v.iter_mut().enumerate() {
+            if !system.held()[i] {
+                *v += half / system.mass()[i] * self.external[i];
+            }
+        }
+    }
+
+    fn meet(&mut self, system: &mut dyn System, state: &State) -> Result<bool, Fault> {
+        stepper::finite(&self.next_x)?;
+        let moment = Moment {
+            t: self.clock.next(),
+            dt: self.clock.dt,
+            lag: 0.0, stays: false,
+        };
+        self.contacts
+            .meet(system, moment, &state.x, &mut self.next_x, &mut self.next_v)
+    }
+}
+
+impl Stepper for Exact {
+    fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
+        let t = self.clock.now();
+        self.advance(system, t, &state.x)?;
+        if !(self.join == Join::Kicks && self.ready) {
+            stepper::external(system, t, &state.x, &state.v, &mut self.external)?;
+        }
+        self.next_v.copy_from_slice(&state.v);
+        system.elastic(&state.x, &mut self.force);
+        match self.join {
+            Join::Kicks => {
+                self.kick(system);
+                self.flow(system, &state.x);
+                let touched = self.meet(system, state)?;
+                let (x, v) = (&self.next_x, &self.next_v);
+                // where the force fails at the end, the next step must ask again at the start
+                self.ready = false;
+                stepper::external(system, self.clock.next(), x, v, &mut self.external)?;
+                self.ready = true;
+                self.later.copy_from_slice(&self.next_v);
+                self.kick(system);
+                if touched {
+                    for touch in &self.contacts.touches {
+                        self.next_v[touch.node] = self.later[touch.node];
+                    }
+                }
+            }
+            Join::Ramp => {
+                for (force, external) in self.force.iter_mut().zip(&self.external) {
+                    *force += external;
+                }
+                self.flow(system, &state.x);
+                stepper::finite(&self.next_x)?;
+                let (x, v) = (&self.next_x, &self.next_v);
+                stepper::external(system, self.clock.next(), x, v, &mut self.later)?;
+                self.correct(system);
+                self.meet(system, state)?;
+            }
+        }
+        std::mem::swap(&mut state.x, &mut self.next_x);
+        std::mem::swap(&mut state.v, &mut self.next_v);
+        self.clock.tick(state);
+        Ok(())
+    }
+
+    fn dt(&self) -> f64 {
+        self.clock.dt
+    }
+}

