@@ -2,10 +2,11 @@
 
 use banded::{Operator, Pentadiagonal};
 use elastic::Material;
-use glam::DVec2;
+use field::Interpolation;
+use glam::{DMat2, DVec2};
 use integrator::{Fault, State, System, Touch};
 
-use crate::{Body, Center, Energies, External, SnakeError, World};
+use crate::{Body, Center, Energies, External, Sampling, SnakeError, World};
 
 /// A snake: a [`Body`] in a [`World`], ready to be moved by any scheme of [`integrator`].
 #[derive(Debug, Clone)]
@@ -339,5 +340,30 @@ impl System for Snake {
 
     fn contact_stiffness(&self) -> (f64, f64) {
         self.world.contact_stiffness()
+    }
+
+    fn external_slope(&mut self, _t: f64, x: &[DVec2], slope: &mut [DMat2]) -> bool {
+        if self
+            .world
+            .image()
+            .is_some_and(|image| image.sampling == Sampling::OneAxis)
+        {
+            return false; // the report's rule jumps between pixels and has no slope there
+        }
+        slope.fill(DMat2::ZERO);
+        for external in &self.world.externals {
+            if let External::Image(image) = external {
+                for (i, (slope, &p)) in slope.iter_mut().zip(x).enumerate() {
+                    *slope += image.field.sample_with_slope(p, Interpolation::Bilinear).1
+                        * image.weight.at(i);
+                }
+            }
+        }
+        for wall in &self.world.walls {
+            for (slope, &p) in slope.iter_mut().zip(x) {
+                *slope += wall.slope(p);
+            }
+        }
+        true
     }
 }

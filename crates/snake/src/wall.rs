@@ -5,7 +5,7 @@
 //! untouched (D57). That is [`WallLaw::Clamp`]. The other two are laws of physics: a stiff spring,
 //! and an impulse with restitution and Coulomb friction.
 
-use glam::DVec2;
+use glam::{DMat2, DVec2};
 use integrator::Touch;
 
 use crate::SnakeError;
@@ -145,6 +145,18 @@ impl Wall {
             return DVec2::ZERO;
         }
         self.normal * (-stiffness * d - damping * v.dot(self.normal)).max(0.0)
+    }
+
+    /// Slope of [`Wall::force`] with the position, damping left out: `−k n nᵀ` behind a penalty wall.
+    #[must_use]
+    pub fn slope(&self, x: DVec2) -> DMat2 {
+        match self.law {
+            WallLaw::Penalty { stiffness, .. } if self.distance(x) < 0.0 => {
+                let scaled = self.normal * -stiffness;
+                DMat2::from_cols(scaled * self.normal.x, scaled * self.normal.y)
+            }
+            _ => DMat2::ZERO,
+        }
     }
 
     /// Energy a penalty wall holds per unit of arc length at `x`: `½ k d²` behind it.

@@ -1,5 +1,8 @@
 //! Laws that hold for every snake, whatever it is made of.
-#![allow(clippy::unwrap_used, reason = "a test: a snake that cannot be built should stop it")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test: a snake that cannot be built should stop it"
+)]
 
 use std::ops::ControlFlow;
 
@@ -63,7 +66,10 @@ prop_compose! {
 }
 
 fn any_places() -> impl Strategy<Value = Vec<DVec2>> {
-    prop::collection::vec((-9.0..9.0, -9.0..9.0).prop_map(|(x, y)| DVec2::new(x, y)), N)
+    prop::collection::vec(
+        (-9.0..9.0, -9.0..9.0).prop_map(|(x, y)| DVec2::new(x, y)),
+        N,
+    )
 }
 
 /// Forces are a few hundred here, and sums of some tens of products of them are compared.
@@ -203,9 +209,13 @@ fn pinned_ends_stay_where_they_are_to_the_bit() {
         let Ok(mut stepper) = scheme.start(&mut snake, &state, dt, Start::SecondOrder) else {
             continue;
         };
-        run(&mut snake, &mut *stepper, &mut state, &Until::steps(40), &mut |_, _| {
-            ControlFlow::Continue(())
-        });
+        run(
+            &mut snake,
+            &mut *stepper,
+            &mut state,
+            &Until::steps(40),
+            &mut |_, _| ControlFlow::Continue(()),
+        );
         assert_eq!(state.x[0], nodes[0], "{}", scheme.name());
         assert_eq!(state.x[N - 1], nodes[N - 1], "{}", scheme.name());
         assert!(state.x[N / 2].y > nodes[N / 2].y, "{}", scheme.name());
@@ -224,16 +234,27 @@ fn bounce(law: WallLaw, tether: f64) -> (f64, f64) {
     state.v.fill(DVec2::new(0.7, -2.0));
     let before = snake.energies(&state).total();
     let dt = 0.2 * Scheme::Leapfrog.step_limit(&snake).unwrap();
-    let mut stepper =
-        Scheme::Leapfrog.start(&mut snake, &state, dt, Start::SecondOrder).unwrap();
+    let mut stepper = Scheme::Leapfrog
+        .start(&mut snake, &state, dt, Start::SecondOrder)
+        .unwrap();
     let mut highest = f64::NEG_INFINITY;
     let mut most = 0.0_f64;
-    run(&mut snake, &mut *stepper, &mut state, &Until::steps(40_000), &mut |snake, state| {
-        let speed = state.v.iter().map(|v| v.y).sum::<f64>() / state.v.len() as f64;
-        highest = highest.max(speed);
-        most = most.max(snake.energies(state).total());
-        if snake.center(&state.x).y > 3.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    });
+    run(
+        &mut snake,
+        &mut *stepper,
+        &mut state,
+        &Until::steps(40_000),
+        &mut |snake, state| {
+            let speed = state.v.iter().map(|v| v.y).sum::<f64>() / state.v.len() as f64;
+            highest = highest.max(speed);
+            most = most.max(snake.energies(state).total());
+            if snake.center(&state.x).y > 3.0 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        },
+    );
     (highest / 2.0, most / before)
 }
 
@@ -241,9 +262,18 @@ fn bounce(law: WallLaw, tether: f64) -> (f64, f64) {
 fn no_wall_law_gives_energy_to_a_bouncing_ring() {
     for law in [
         WallLaw::Clamp,
-        WallLaw::Penalty { stiffness: 5000.0, damping: 5.0 },
-        WallLaw::Impact { restitution: 0.0, friction: 0.3 },
-        WallLaw::Impact { restitution: 1.0, friction: 0.0 },
+        WallLaw::Penalty {
+            stiffness: 5000.0,
+            damping: 5.0,
+        },
+        WallLaw::Impact {
+            restitution: 0.0,
+            friction: 0.3,
+        },
+        WallLaw::Impact {
+            restitution: 1.0,
+            friction: 0.0,
+        },
     ] {
         let (back, energy) = bounce(law, 50.0);
         assert!(back > 0.1 && back < 1.02, "{law:?}: came back with {back}");
@@ -255,7 +285,11 @@ fn no_wall_law_gives_energy_to_a_bouncing_ring() {
 #[test]
 fn a_single_node_comes_back_from_a_penalty_wall_with_the_restitution_promised() {
     // three free nodes in a row parallel to the wall move as one
-    let nodes = [DVec2::new(0.5, 0.0), DVec2::new(0.5, 1.0), DVec2::new(0.5, 2.0)];
+    let nodes = [
+        DVec2::new(0.5, 0.0),
+        DVec2::new(0.5, 1.0),
+        DVec2::new(0.5, 2.0),
+    ];
     let (stiffness, damping) = (400.0, 8.0);
     let body = Body::of(&nodes, Topology::open(End::Free), 1.0).unwrap();
     let law = WallLaw::Penalty { stiffness, damping };
@@ -263,19 +297,72 @@ fn a_single_node_comes_back_from_a_penalty_wall_with_the_restitution_promised() 
     let mut snake = Snake::new(body, World::default().with_wall(wall)).unwrap();
     let mut state = State::at_rest(nodes.to_vec());
     state.v.fill(DVec2::NEG_X);
-    let mut stepper =
-        Scheme::Leapfrog.start(&mut snake, &state, 1e-4, Start::SecondOrder).unwrap();
-    run(&mut snake, &mut *stepper, &mut state, &Until::steps(20_000), &mut |_, state| {
-        if state.v[1].x > 0.0 && state.x[1].x > 0.1 {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    });
+    let mut stepper = Scheme::Leapfrog
+        .start(&mut snake, &state, 1e-4, Start::SecondOrder)
+        .unwrap();
+    run(
+        &mut snake,
+        &mut *stepper,
+        &mut state,
+        &Until::steps(20_000),
+        &mut |_, state| {
+            if state.v[1].x > 0.0 && state.x[1].x > 0.1 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        },
+    );
     let zeta: f64 = damping / (2.0 * stiffness.sqrt());
     let promised = (-std::f64::consts::PI * zeta / (1.0 - zeta * zeta).sqrt()).exp();
     // the wall never pulls, so the node leaves a little earlier than the formula's half period
-    assert!((state.v[1].x / promised - 1.0).abs() < 0.1, "{} {promised}", state.v[1].x);
+    assert!(
+        (state.v[1].x / promised - 1.0).abs() < 0.1,
+        "{} {promised}",
+        state.v[1].x
+    );
+}
+
+#[test]
+fn the_slope_of_the_outside_is_the_difference_of_its_force() {
+    // smooth and curved, so that a slope at the wrong place would show
+    let x = field::Grid::from_shape_fn((16, 16), |(y, x)| (0.3 * x as f64).sin() + 0.1 * y as f64);
+    let y = field::Grid::from_shape_fn((16, 16), |(y, x)| (0.2 * y as f64).cos() - 0.2 * x as f64);
+    let field = std::sync::Arc::new(field::ForceField::from_components(&x, &y).unwrap());
+    let nodes = [
+        DVec2::new(3.3, 4.4),
+        DVec2::new(6.2, 7.7),
+        DVec2::new(10.6, 9.1),
+    ];
+    let body = Body::of(&nodes, Topology::open(End::Free), 1.0).unwrap();
+    let law = WallLaw::Penalty {
+        stiffness: 7.0,
+        damping: 0.0,
+    };
+    let wall = Wall::new(DVec2::new(5.0, 5.0), DVec2::new(1.0, 2.0), law).unwrap();
+    let world = World::default()
+        .with_image(field, snake::Sampling::Bilinear)
+        .with_wall(wall);
+    let mut snake = Snake::new(body, world).unwrap();
+    let mut slope = [glam::DMat2::ZERO; 3];
+    assert!(snake.external_slope(0.0, &nodes, &mut slope));
+    let mut force = |by: DVec2| {
+        let x: Vec<DVec2> = nodes.iter().map(|p| *p + by).collect();
+        let mut force = vec![DVec2::ZERO; 3];
+        snake
+            .external(0.0, &x, &[DVec2::ZERO; 3], &mut force)
+            .unwrap();
+        force
+    };
+    let step = 1e-5;
+    for (axis, e) in [DVec2::X, DVec2::Y].into_iter().enumerate() {
+        let (after, before) = (force(e * step), force(-e * step));
+        for i in 0..3 {
+            let found = (after[i] - before[i]) / (2.0 * step);
+            // bilinear between pixels and linear behind the wall: exact up to rounding / step
+            assert!((found - slope[i].col(axis)).length() < 1e-8, "node {i}");
+        }
+    }
 }
 
 #[test]
@@ -302,10 +389,18 @@ fn a_run_that_blows_up_says_when_and_where() {
     let mut state = State::at_rest(nodes);
     state.x[3].x += 0.1;
     let dt = 1.5 * Scheme::Leapfrog.step_limit(&snake).unwrap();
-    let mut stepper =
-        Scheme::Leapfrog.start(&mut snake, &state, dt, Start::SecondOrder).unwrap();
-    let outcome = run(&mut snake, &mut *stepper, &mut state, &Until::steps(9999), &mut |_, _| {
-        ControlFlow::Continue(())
-    });
-    assert!(matches!(outcome, Outcome::Diverged { step: 5..=200, .. }), "{outcome}");
+    let mut stepper = Scheme::Leapfrog
+        .start(&mut snake, &state, dt, Start::SecondOrder)
+        .unwrap();
+    let outcome = run(
+        &mut snake,
+        &mut *stepper,
+        &mut state,
+        &Until::steps(9999),
+        &mut |_, _| ControlFlow::Continue(()),
+    );
+    assert!(
+        matches!(outcome, Outcome::Diverged { step: 5..=200, .. }),
+        "{outcome}"
+    );
 }
