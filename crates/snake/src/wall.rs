@@ -21,8 +21,9 @@ pub enum WallLaw {
     /// A spring and a damper push while the node is behind the wall, and never pull:
     /// `f = max(0, −k d − c ḋ) n` with `d < 0` the signed distance.
     ///
-    /// A single node of mass density μ comes back with about `exp(−π ζ/√(1−ζ²))` of its speed,
-    /// `ζ = c / (2 √(k μ))`. The stiffness adds to the largest eigenvalue in the step limit.
+    /// A single node of mass density μ comes back with `exp(−2 ζ arccos ζ / √(1−ζ²))` of its speed,
+    /// `ζ = c / (2 √(k μ)) < 1`: it leaves when the wall would begin to pull, which is before the
+    /// half period is over. The stiffness adds to the largest eigenvalue in the step limit.
     Penalty {
         /// k. M T⁻².
         stiffness: f64,

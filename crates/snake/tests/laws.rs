@@ -366,6 +366,92 @@ fn the_slope_of_the_outside_is_the_difference_of_its_force() {
 }
 
 #[test]
+fn d12_a_turned_snake_counts_as_deformed() {
+    let nodes = elastic::ellipse(DVec2::ZERO, DVec2::new(4.0, 2.0), 0.0, 12);
+    let mut body = Body::of(&nodes, Topology::Closed, 1.0).unwrap();
+    body.material = Material::uniform(1.0, 2.0, 3.0);
+    let mut snake = Snake::new(body, World::default()).unwrap();
+    let turn = |angle: f64| {
+        nodes
+            .iter()
+            .map(|&p| DVec2::from_angle(angle).rotate(p))
+            .collect::<Vec<_>>()
+    };
+    assert!(snake.energies(&State::at_rest(turn(0.0))).elastic() < 1e-20);
+    assert!(snake.energies(&State::at_rest(turn(0.5))).elastic() > 1.0);
+}
+
+#[test]
+fn d67_a_smooth_wall_squeezes_and_nothing_bulges() {
+    let nodes = elastic::circle(DVec2::new(1.2, 0.0), 1.0, 24);
+    let mut body = Body::of(&nodes, Topology::Closed, 1.0).unwrap();
+    body.material = Material::uniform(0.0, 5.0, 0.3);
+    let wall = Wall::new(DVec2::ZERO, DVec2::X, WallLaw::Clamp).unwrap();
+    let world = World::default()
+        .with_wall(wall)
+        .with_gravity(DVec2::new(0.0, -0.4));
+    let mut snake = Snake::new(body, world).unwrap();
+    let mut state = State::at_rest(nodes);
+    state.v.fill(DVec2::new(-2.0, 0.0));
+    let dt = 0.3 * Scheme::Report.step_limit(&snake).unwrap();
+    let mut stepper = Scheme::Report
+        .start(&mut snake, &state, dt, Start::FirstOrder)
+        .unwrap();
+    let (mut most, mut e) = (DVec2::ZERO, vec![DVec2::ZERO; 24]);
+    run(
+        &mut snake,
+        &mut *stepper,
+        &mut state,
+        &Until::steps(200),
+        &mut |snake, state| {
+            snake.deformation_into(&state.x, &mut e);
+            most = e.iter().fold(most, |most, e| most.max(e.abs()));
+            ControlFlow::Continue(())
+        },
+    );
+    // squeezed by tens of percent along x; along y only rounding, some 1e-16 a step
+    assert!(most.x > 0.1 && most.y < 1e-11, "{most}");
+}
+
+#[test]
+fn the_step_limit_of_uneven_mass_and_damping_parts_rest_from_blow_up() {
+    let nodes = curve(Topology::Closed, 0.5);
+    let mut body = Body::of(&nodes, Topology::Closed, 1.0).unwrap();
+    body.material = Material {
+        tether: Profile::Uniform(0.1),
+        tension: Profile::PerNode((0..N).map(|i| 1.0 + i as f64).collect()),
+        rigidity: Profile::PerNode((0..N).map(|i| 2.0 + (i % 3) as f64).collect()),
+    };
+    body.mass = Profile::PerNode((0..N).map(|i| 0.5 + 0.2 * i as f64).collect());
+    body.damping = Profile::PerNode((0..N).map(|i| 0.3 * (i % 4) as f64).collect());
+    // the mean moves with uneven masses; measured from the plain mean the limit is K's own
+    body.frame.center = Center::Mean;
+    body.recenter().unwrap();
+    for scheme in [Scheme::Report, Scheme::Leapfrog] {
+        let size = |factor: f64| {
+            let mut snake = Snake::new(body.clone(), World::default()).unwrap();
+            let dt = factor * scheme.step_limit(&snake).unwrap();
+            let mut state = State::at_rest(nodes.clone());
+            state.x[4] += DVec2::new(1e-3, 0.0);
+            let mut stepper = scheme
+                .start(&mut snake, &state, dt, Start::SecondOrder)
+                .unwrap();
+            run(
+                &mut snake,
+                &mut *stepper,
+                &mut state,
+                &Until::steps(3000),
+                &mut |_, _| ControlFlow::Continue(()),
+            );
+            state.v.iter().map(|v| v.length()).fold(0.0, f64::max)
+        };
+        assert!(size(0.999) < 1e-2, "{}: {}", scheme.name(), size(0.999));
+        let above = size(1.02);
+        assert!(above > 1.0 || above.is_nan(), "{}: {above}", scheme.name());
+    }
+}
+
+#[test]
 fn a_schedule_changes_the_body_and_its_operator() {
     let nodes = elastic::circle(DVec2::ZERO, 5.0, 12);
     let mut body = Body::of(&nodes, Topology::Closed, 1.0).unwrap();
