@@ -2,15 +2,15 @@
 
 mod circulant;
 mod complex;
+mod eigen;
 mod lanes;
+mod operator;
 mod wide;
 
 use glam::DVec2;
 use proptest::prelude::*;
 
-use crate::{
-    BandedError, Dense, Factor, Operator, Pentadiagonal, largest_eigenvalue, smallest_eigenvalue,
-};
+use crate::{BandedError, Dense, Factor, Pentadiagonal, largest_eigenvalue, smallest_eigenvalue};
 
 /// A sum of springs of random strengths and shapes: never negative, positive by `floor`.
 fn springs(n: usize, cyclic: bool, weights: &[f64], floor: f64) -> Pentadiagonal {
@@ -158,53 +158,6 @@ proptest! {
         prop_assert!(shifted.is_positive_definite());
         prop_assert!(Factor::new(&shifted).is_ok());
     }
-
-    #[test]
-    fn operator_with_columns_solves_as_the_dense_one(
-        (a, b) in with_vector(),
-        columns in proptest::collection::vec(proptest::collection::vec(-1.0..1.0_f64, 40), 1..4),
-        s in 0.1..2.0_f64,
-    ) {
-        let n = a.len();
-        let k = columns.len();
-        let columns: Vec<Vec<f64>> = columns.iter().map(|column| column[..n].to_vec()).collect();
-        let middle = (0..k * k).map(|e| if e / k == e % k { s } else { 0.05 * s }).collect();
-        let operator = Operator::new(a.clone(), columns, middle).unwrap();
-        let dense = operator.dense();
-        let mut out = vec![DVec2::ZERO; n];
-        operator.multiply_into(&b, &mut out);
-        let mut x = b.clone();
-        operator.factor().unwrap().solve(&mut x);
-        let (b, out) = (coordinates(&b), coordinates(&out));
-        for (k, x) in coordinates(&x).iter().enumerate() {
-            // B alone may be worse conditioned than the whole, by 1e7 here
-            prop_assert!(backward_error(&dense, x, &b[k]) <= 1e-9);
-            for (out, expected) in out[k].iter().zip(dense.multiply(&b[k])) {
-                prop_assert!((out - expected).abs() <= 1e-13 * (a.norm() + 1.0));
-            }
-        }
-    }
-
-    #[test]
-    fn eigenvectors_diagonalise((a, _) in with_vector()) {
-        let dense = a.dense();
-        let eigen = dense.eigen().unwrap();
-        let twin = dense.eigen_by_rotations().unwrap();
-        for (value, twin) in eigen.values.iter().zip(&twin.values) {
-            prop_assert!((value - twin).abs() <= 1e-13 * a.norm());
-        }
-        for (k, (value, vector)) in eigen.values.iter().zip(&eigen.vectors).enumerate() {
-            for (image, v) in dense.multiply(vector).iter().zip(vector) {
-                // some hundreds of rotations pass over each row, each adds half a unit
-                prop_assert!((image - value * v).abs() <= 1e-13 * a.norm());
-            }
-            for (other, second) in eigen.vectors.iter().enumerate() {
-                let dot: f64 = vector.iter().zip(second).map(|(v, w)| v * w).sum();
-                let expected = if other == k { 1.0 } else { 0.0 };
-                prop_assert!((dot - expected).abs() <= 1e-13);
-            }
-        }
-    }
 }
 
 #[test]
@@ -329,84 +282,6 @@ fn outer_products_wrap_round_and_may_repeat_an_index() {
 }
 
 #[test]
-fn shifted_operator_is_the_sum() {
-    let mut band = Pentadiagonal::new(5, false).unwrap();
-    band.add_outer(1.0, &[(0, 1.0), (1, 1.0)]);
-    let operator = Operator::new(band, vec![vec![1.0; 5]], vec![0.5]).unwrap();
-    let shifted = operator.shifted(2.0, &[1.0, 2.0, 3.0, 4.0, 5.0]).dense();
-    assert_eq!(shifted.rows().next().unwrap(), [4.0, 3.0, 1.0, 1.0, 1.0]);
-    assert_eq!(shifted.rows().last().unwrap(), [1.0, 1.0, 1.0, 1.0, 6.0]);
-}
-
-#[test]
-fn taking_the_mean_out_leaves_the_residual_at_rounding() {
-    for n in [5, 50, 1000] {
-        // ends held at rest: K 1 is not zero, so both columns matter
-        let mut k = Pentadiagonal::new(n, false).unwrap();
-        k.add_identity(6.0e3 + 2.0);
-        (1..n).for_each(|i| k.add(i - 1, i, -4.0e3 - 1.0));
-        (2..n).for_each(|i| k.add(i - 2, i, 1.0e3));
-        let mut sums = vec![0.0; n];
-        k.multiply_scalars_into(&vec![1.0; n], &mut sums);
-        let size = 1.0 / f64::from(u32::try_from(n).unwrap());
-        let whole = sums.iter().sum::<f64>() * size * size;
-        let norm = k.norm();
-        let columns = vec![vec![1.0; n], sums];
-        let operator = Operator::new(k, columns, vec![whole, -size, -size, 0.0]).unwrap();
-        for exponent in [2, 7, 12] {
-            let a = operator.shifted(1.0, &vec![norm * 10.0_f64.powi(-exponent); n]);
-            let wave =
-                |i: usize| DVec2::from_angle(0.7 * f64::from(u32::try_from(i % 97).unwrap()));
-            let b: Vec<DVec2> = (0..n).map(|i| wave(i) + DVec2::X).collect();
-            let (mut x, mut product) = (b.clone(), b.clone());
-            a.factor().unwrap().solve(&mut x);
-            a.multiply_into(&x, &mut product);
-            let rest = (0..n)
-                .map(|i| (b[i] - product[i]).length())
-                .fold(0.0, f64::max);
-            let moved = x.iter().map(|x| x.length()).fold(0.0, f64::max);
-            // the product's sum over all nodes rounds by itself
-            assert!(
-                rest <= 1e-14 * norm * moved,
-                "{n} 1e{exponent}: {:e}",
-                rest / (norm * moved)
-            );
-        }
-    }
-}
-
-#[test]
-fn eigenbasis_of_a_large_or_degenerate_matrix_is_orthogonal() {
-    let ring = springs(120, true, &[1.0, 1.0, 100.0], 0.0).dense();
-    let blocks = Dense::from_fn(40, |i, j| if i / 2 == j / 2 { 1.0 } else { 0.0 });
-    for a in [
-        ring,
-        blocks,
-        Dense::from_fn(7, |_, _| 0.0),
-        Dense::from_fn(1, |_, _| -3.0),
-    ] {
-        let n = a.len();
-        let eigen = a.eigen().unwrap();
-        let norm = largest(&eigen.values);
-        for i in 0..n {
-            for j in 0..n {
-                let (v, w) = (&eigen.vectors[i], &eigen.vectors[j]);
-                let dot: f64 = v.iter().zip(w).map(|(v, w)| v * w).sum();
-                let image: f64 = v.iter().zip(a.multiply(w)).map(|(v, w)| v * w).sum();
-                let (unit, value) = if i == j {
-                    (1.0, eigen.values[i])
-                } else {
-                    (0.0, 0.0)
-                };
-                // each of n reflections and some n rotations a row add half a unit
-                assert!((dot - unit).abs() <= 1e-13, "{n}: {i} {j}");
-                assert!((image - value).abs() <= 1e-13 * norm, "{n}: {i} {j}");
-            }
-        }
-    }
-}
-
-#[test]
 fn only_equal_rows_make_a_circulant() {
     let mut a = springs(8, true, &[1.0], 0.5);
     assert_eq!(
@@ -416,43 +291,4 @@ fn only_equal_rows_make_a_circulant() {
     a.add(3, 4, 1e-12);
     assert_eq!(a.circulant(), None);
     assert_eq!(springs(8, false, &[1.0], 0.5).circulant(), None);
-}
-
-#[test]
-fn corrections_that_do_not_fit_are_refused() {
-    let band = springs(6, true, &[1.0], 1.0);
-    let make = |columns, middle| Operator::new(band.clone(), columns, middle).unwrap_err();
-    assert!(matches!(
-        make(vec![vec![1.0; 5]], vec![1.0]),
-        BandedError::Length { got: 5, .. }
-    ));
-    assert!(matches!(
-        make(vec![vec![1.0; 6]; 2], vec![1.0]),
-        BandedError::Length { got: 1, .. }
-    ));
-    let skew = vec![0.0, 1.0, 2.0, 0.0];
-    assert!(matches!(
-        make(vec![vec![1.0; 6]; 2], skew),
-        BandedError::NotSymmetric { .. }
-    ));
-    let many = make(vec![vec![1.0; 6]; 5], vec![0.0; 25]);
-    assert_eq!(many, BandedError::TooManyColumns { most: 4, got: 5 });
-}
-
-#[test]
-fn dense_refuses_what_has_no_answer() {
-    let singular = Dense::from_fn(2, |_, _| 1.0);
-    assert!(matches!(
-        singular.solve(&[1.0, 1.0]),
-        Err(BandedError::Singular { row: 1, .. })
-    ));
-    assert!(matches!(
-        singular.solve(&[1.0]),
-        Err(BandedError::Length { .. })
-    ));
-    let skew = Dense::from_fn(2, |i, j| if i < j { 1.0 } else { 0.0 });
-    assert!(matches!(
-        skew.eigen(),
-        Err(BandedError::NotSymmetric { .. })
-    ));
 }
