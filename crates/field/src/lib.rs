@@ -28,6 +28,9 @@
 //! # Ok::<(), field::FieldError>(())
 //! ```
 
+mod convolution;
+mod diffusion;
+mod distance;
 mod edge;
 mod error;
 mod fast;
@@ -35,17 +38,26 @@ mod force_field;
 mod gradient;
 mod grid;
 pub mod literal;
+mod polarity;
 mod report;
 mod sample;
 pub mod signal;
 mod smooth;
+mod strength;
 
+pub use convolution::{Falloff, vector_convolution};
+pub use diffusion::{Flow, FlowRule, MOST_CYCLES, VectorFlow, vector_flow};
+pub use distance::{distance_force, edge_pixels, squared_distance};
 pub use edge::{EdgeForce, EdgeStages, edge_force, edge_stages, gradient_force};
 pub use error::{FieldError, OutsideField};
 pub use fast::{FastForce, Pixel, Recipe, fast_force, lazy_force};
 pub use force_field::ForceField;
 pub use gradient::{Across, mask_x, mask_y};
 pub use grid::{Grid, LARGEST_PIXEL, LARGEST_SIGMA, MOST_PASSES};
+pub use polarity::{Polarity, SignedEdge};
 pub use report::{REPORT_GAIN, REPORT_SCALE, ReportStages, report_force, report_stages};
 pub use sample::Interpolation;
 pub use smooth::{REPORT_PASSES, Smoothing, binomial_x, binomial_y, gaussian_weights};
+pub use strength::{
+    Line, color_edge_strength, line_strength, multiscale_edge_strength, termination_strength,
+};

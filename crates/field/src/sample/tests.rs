@@ -25,9 +25,9 @@ fn near(a: DVec2, b: DVec2, tolerance: f64) -> bool {
 fn pixels_keep_their_forces() {
     let field = wavy(6, 9);
     for rule in RULES {
-        for (x, y) in [(0, 0), (3, 4), (8, 5), (8, 0), (1, 5)] {
-            let p = DVec2::new(f64::from(x), f64::from(y));
-            let pixel = field.pixel(x as usize, y as usize).unwrap();
+        for (x, y) in [(0_usize, 0_usize), (3, 4), (8, 5), (8, 0), (1, 5)] {
+            let p = DVec2::new(x as f64, y as f64);
+            let pixel = field.pixel(x, y).unwrap();
             assert!(near(field.sample(p, rule), pixel, 1e-14));
         }
     }
