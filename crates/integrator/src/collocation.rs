@@ -7,10 +7,11 @@
 use banded::{Complex, ComplexOperatorFactor, ComplexPoint};
 use glam::DVec2;
 
-use crate::contact::{Contacts, Moment};
+use crate::contact::Contacts;
+use crate::newmark::Newmark;
 use crate::solver::Solver;
 use crate::stepper::{self, Clock, Mass};
-use crate::tableau::{Method, Tableau};
+use crate::tableau::{Eigenpair, Method, Tableau};
 use crate::{Fault, SchemeError, State, Stepper, System};
 
 /// How often the external forces at the stages are asked for again.
@@ -29,9 +30,11 @@ pub(crate) struct Collocation {
     method: Method,
     tableau: Tableau,
     clock: Clock,
-    /// The real eigenvalue's system; for Gauss's method, which has none, only for contacts.
-    real: Solver,
+    /// The real eigenvalue's system, which Gauss's method has none of.
+    real: Option<Solver>,
     complex: ComplexOperatorFactor,
+    /// For the steps in which something is touched.
+    stand_in: Newmark,
     shift: Vec<Complex>,
     elastic: Vec<DVec2>,
     /// External forces at the stages.
@@ -58,16 +61,17 @@ impl Collocation {
         stepper::check(name, system, state, dt, method.need())?;
         let tableau = Tableau::new(method);
         let n = state.len();
-        // a contact is met as the trapezoidal rule would where there is no real system
-        let z = tableau.real.map_or(2.0, |real| real.z);
-        let weights = (z * z / (dt * dt), z / dt);
+        let real = tableau.real.map(|Eigenpair { z, .. }| {
+            Solver::new(name, method.need(), system, (z * z / (dt * dt), z / dt))
+        });
         let mut shift = vec![Complex::default(); n];
         fill(&mut shift, system, tableau.complex.z, dt);
         let zeros = || vec![DVec2::ZERO; n];
         Ok(Self {
             method,
             clock: Clock::new(state, dt),
-            real: Solver::new(name, method.need(), system, weights)?,
+            real: real.transpose()?,
+            stand_in: Newmark::stand_in(name, method.need(), system, state, dt)?,
             complex: system.stiffness().factor_shifted(&shift)?,
             shift,
             elastic: zeros(),
@@ -84,7 +88,11 @@ impl Collocation {
     }
 
     fn advance(&mut self, system: &mut dyn System, t: f64, x: &[DVec2]) -> Result<(), Fault> {
-        if self.real.advance(system, t, x)? {
+        if system.advance(t) {
+            self.stand_in.rebuild(system, x)?;
+            if let Some(real) = &mut self.real {
+                real.rebuild(system, x)?;
+            }
             fill(
                 &mut self.shift,
                 system,
@@ -118,7 +126,7 @@ impl Collocation {
             self.complex_part[i] = sum;
         }
         self.complex.solve(&mut self.complex_part);
-        if let Some(real) = self.tableau.real {
+        if let (Some(real), Some(solver)) = (self.tableau.real, &self.real) {
             let total: f64 = real.left[..stages].iter().sum();
             for i in 0..v.len() {
                 let mut sum = DVec2::ZERO;
@@ -130,7 +138,7 @@ impl Collocation {
                 }
                 self.real_part[i] = sum;
             }
-            self.real.solve(&mut self.real_part);
+            solver.solve(&mut self.real_part);
         }
         for (stage, offset) in self.offsets.iter_mut().enumerate() {
             let u = complex.right[stage];
@@ -226,16 +234,16 @@ impl Stepper for Collocation {
             }
         }
         stepper::finite(&self.next_x)?;
-        let moment = Moment {
-            t: t + dt,
-            dt,
-            lag: 0.0, stays: false,
-        };
-        let (x, v) = (&mut self.next_x, &mut self.next_v);
-        self.contacts
-            .meet_with(system, moment, &state.x, x, v, Some(&mut self.real))?;
-        std::mem::swap(&mut state.x, x);
-        std::mem::swap(&mut state.v, v);
+        if self
+            .contacts
+            .find(system, dt, &state.x, &self.next_x, &self.next_v)
+        {
+            self.stand_in.take(system, t, state)?;
+            self.clock.tick(state);
+            return Ok(());
+        }
+        std::mem::swap(&mut state.x, &mut self.next_x);
+        std::mem::swap(&mut state.v, &mut self.next_v);
         self.clock.tick(state);
         Ok(())
     }

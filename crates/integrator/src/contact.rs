@@ -20,9 +20,28 @@ pub(crate) struct Moment {
     /// How long the step was.
     pub(crate) dt: f64,
     /// How far the velocities are behind the positions.
-    pub(crate) lag: f64,
-    /// Whether they are still so after a touch.
-    pub(crate) stays: bool,
+    pub(crate) pace: Pace,
+}
+
+impl Moment {
+    /// How far the velocities are behind the positions.
+    fn lag(self) -> f64 {
+        match self.pace {
+            Pace::Together => 0.0,
+            Pace::Catching | Pace::Late => 0.5 * self.dt,
+        }
+    }
+}
+
+/// How velocities and positions of a scheme belong together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Pace {
+    /// At the same time.
+    Together,
+    /// The velocity is half a step late at the end of the step, but not after a touch.
+    Catching,
+    /// The velocity is always half a step late.
+    Late,
 }
 
 /// Scratch space for contacts.
@@ -99,37 +118,79 @@ impl Contacts {
             self.shift[i] = touch.position - x[i];
             leaves |= touch.velocity.is_some_and(|v| v.dot(self.shift[i]) > 0.0);
         }
+        // what the move costs: ΔU, and the motion of those that follow
+        let mut cost = 0.0;
         if let Some(solver) = solver {
-            solver.follow(&self.touches, &mut self.shift);
+            solver.follow(&mut self.touches, &mut self.shift);
+            let mass = system.mass();
             for (i, &shift) in self.shift.iter().enumerate() {
                 x[i] += shift;
                 if !solver.touches(i) {
-                    v[i] += shift / dt;
+                    let rise = shift / dt;
+                    cost += mass[i] * rise.dot(v[i] + 0.5 * rise);
+                    v[i] += rise;
                 }
             }
         }
         for touch in &self.touches {
             x[touch.node] = touch.position;
         }
+        let mut share = 1.0;
         if leaves {
             stepper::force(system, t, x, v, &mut self.force)?;
             system
                 .stiffness()
                 .multiply_into(&self.shift, &mut self.product);
+            // −F·δ − ½ δ·Aδ with F where they were put
+            for (i, shift) in self.shift.iter().enumerate() {
+                cost -= (self.force[i] + 0.5 * self.product[i]).dot(*shift);
+            }
+            share = self.share(system.mass(), moment, v, cost);
         }
         for touch in &self.touches {
             let i = touch.node;
+            let mass = system.mass()[i];
             v[i] = match touch.velocity {
                 None => (touch.position - before[i]) / dt,
-                Some(asked) if leaves => self.tamed(system.mass()[i], moment, i, v[i], asked),
+                Some(asked) if leaves => self.tamed(mass, moment, i, asked, share),
                 Some(asked) => asked,
             };
         }
         Ok(true)
     }
 
-    /// The velocity asked for, its part away from the obstacle no larger than energy allows.
-    fn tamed(&self, mass: f64, moment: Moment, i: usize, v: DVec2, asked: DVec2) -> DVec2 {
+    /// How much of the speeds asked for the energy that went in can pay.
+    ///
+    /// What went in is the motion into the obstacle, less `cost`; all touched nodes share it.
+    fn share(&self, mass: &[f64], moment: Moment, v: &[DVec2], cost: f64) -> f64 {
+        let (mut spent, mut asked) = (-cost, 0.0);
+        for touch in &self.touches {
+            let i = touch.node;
+            let (Some(away), Some(velocity)) = (self.shift[i].try_normalize(), touch.velocity)
+            else {
+                continue;
+            };
+            let late = v[i].dot(away);
+            // the force before the move brings velocity and position to the same time
+            let push = self.force[i] + self.product[i];
+            let full = late + moment.lag() * push.dot(away) / mass[i];
+            let into = if full < 0.0 {
+                late.abs().min(full.abs())
+            } else {
+                0.0
+            };
+            spent += 0.5 * mass[i] * into * into;
+            asked += 0.5 * mass[i] * velocity.dot(away).powi(2);
+        }
+        if asked <= 0.0 {
+            1.0
+        } else {
+            (spent / asked).clamp(0.0, 1.0).sqrt()
+        }
+    }
+
+    /// The velocity asked for, with `share` of its part away from the obstacle.
+    fn tamed(&self, mass: f64, moment: Moment, i: usize, asked: DVec2, share: f64) -> DVec2 {
         let Some(away) = self.shift[i].try_normalize() else {
             return asked;
         };
@@ -137,16 +198,9 @@ impl Contacts {
         if out <= 0.0 || mass <= 0.0 {
             return asked;
         }
-        // U(after) − U(before) of this node's move: −F·δ − ½ δ·Aδ with F where it was put
-        let gained = -self.force[i].dot(self.shift[i]) - 0.5 * self.product[i].dot(self.shift[i]);
-        let late = v.dot(away);
-        // what the force on it does until velocity and position are of the same time
-        let catch_up = moment.lag * self.force[i].dot(away) / mass;
-        let full = late + catch_up;
-        let into = if full < 0.0 { late.abs().min(full.abs()) } else { 0.0 };
-        let mut most = (into * into - 2.0 * gained / mass).max(0.0).sqrt();
-        if moment.stays {
-            most = (most - catch_up).max(0.0);
+        let mut most = share * out;
+        if moment.pace == Pace::Late {
+            most = (most - moment.lag() * self.force[i].dot(away) / mass).max(0.0);
         }
         asked + away * (out.min(most) - out)
     }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::contact::{Contacts, Moment};
+use crate::contact::{Contacts, Moment, Pace};
 use crate::rk4::{Rates, stop_held};
 use crate::stepper::{self, Clock, Mass};
 use crate::{Fault, FaultKind, SchemeError, State, Stepper, System};
@@ -291,7 +291,7 @@ impl DormandPrince {
         let moment = Moment {
             t: t + h,
             dt: h,
-            lag: 0.0, stays: false,
+            pace: Pace::Together,
         };
         let State { x, v, .. } = &mut self.to;
         let touched = self.contacts.meet(system, moment, &self.from.x, x, v)?;

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::contact::{Contacts, Moment};
+use crate::contact::{Contacts, Moment, Pace};
 use crate::solver::Solver;
 use crate::stepper::{self, Clock, Mass};
 use crate::{Fault, SchemeError, State, Stepper, System};
@@ -157,7 +157,7 @@ impl Stepper for Euler {
         let moment = Moment {
             t: end,
             dt,
-            lag: 0.0, stays: false,
+            pace: Pace::Together,
         };
         let (x, v) = (&mut self.next_x, &mut self.next_v);
         self.contacts

@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 
-use crate::contact::{Contacts, Moment};
+use crate::contact::Contacts;
 use crate::modes::Modes;
+use crate::newmark::Newmark;
 use crate::oscillator::Oscillator;
 use crate::stepper::{self, Clock, Mass};
 use crate::{Fault, SchemeError, State, Stepper, System};
@@ -51,6 +52,8 @@ pub(crate) struct Exact {
     mode_a: Vec<DVec2>,
     next_x: Vec<DVec2>,
     next_v: Vec<DVec2>,
+    /// For the steps in which something is touched.
+    stand_in: Newmark,
     contacts: Contacts,
 }
 
@@ -78,6 +81,7 @@ impl Exact {
             mode_a: zeros(),
             next_x: zeros(),
             next_v: zeros(),
+            stand_in: Newmark::stand_in(join.name(), Mass::Needed, system, state, dt)?,
             contacts: Contacts::new(state.len()),
         };
         stepper.respond();
@@ -100,10 +104,9 @@ impl Exact {
         if !system.advance(t) {
             return Ok(());
         }
+        self.stand_in.rebuild(system, x)?;
         let name = self.join.name();
-        self.modes = stepper::densities(name, system, Mass::Needed)
-            .and_then(|()| Modes::new(name, system))
-            .map_err(|_| stepper::unsolvable(x))?;
+        self.modes = Modes::new(name, system).map_err(|_| stepper::unsolvable(x))?;
         self.respond();
         Ok(())
     }
@@ -175,15 +178,17 @@ impl Exact {
         }
     }
 
-    fn meet(&mut self, system: &mut dyn System, state: &State) -> Result<bool, Fault> {
+    /// Whether something was touched on the way; then the step is made again by the stand-in.
+    fn met(&mut self, system: &mut dyn System, state: &mut State) -> Result<bool, Fault> {
         stepper::finite(&self.next_x)?;
-        let moment = Moment {
-            t: self.clock.next(),
-            dt: self.clock.dt,
-            lag: 0.0, stays: false,
-        };
-        self.contacts
-            .meet(system, moment, &state.x, &mut self.next_x, &mut self.next_v)
+        let (x, v) = (&self.next_x, &self.next_v);
+        if !self.contacts.find(system, self.clock.dt, &state.x, x, v) {
+            return Ok(false);
+        }
+        self.ready = false;
+        self.stand_in.take(system, self.clock.now(), state)?;
+        self.clock.tick(state);
+        Ok(true)
     }
 }
 
@@ -200,19 +205,15 @@ impl Stepper for Exact {
             Join::Kicks => {
                 self.kick(system);
                 self.flow(system, &state.x);
-                let touched = self.meet(system, state)?;
+                if self.met(system, state)? {
+                    return Ok(());
+                }
                 let (x, v) = (&self.next_x, &self.next_v);
                 // where the force fails at the end, the next step must ask again at the start
                 self.ready = false;
                 stepper::external(system, self.clock.next(), x, v, &mut self.external)?;
                 self.ready = true;
-                self.later.copy_from_slice(&self.next_v);
                 self.kick(system);
-                if touched {
-                    for touch in &self.contacts.touches {
-                        self.next_v[touch.node] = self.later[touch.node];
-                    }
-                }
             }
             Join::Ramp => {
                 for (force, external) in self.force.iter_mut().zip(&self.external) {
@@ -223,7 +224,9 @@ impl Stepper for Exact {
                 let (x, v) = (&self.next_x, &self.next_v);
                 stepper::external(system, self.clock.next(), x, v, &mut self.later)?;
                 self.correct(system);
-                self.meet(system, state)?;
+                if self.met(system, state)? {
+                    return Ok(());
+                }
             }
         }
         std::mem::swap(&mut state.x, &mut self.next_x);

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::contact::{Contacts, Moment};
+use crate::contact::{Contacts, Moment, Pace};
 use crate::stepper::{self, Clock, Mass};
 use crate::{Fault, SchemeError, Start, State, Stepper, System};
 
@@ -133,8 +133,7 @@ impl Stepper for Leapfrog {
         let moment = Moment {
             t,
             dt,
-            lag: 0.5 * dt,
-            stays: false,
+            pace: Pace::Catching,
         };
         let (next, half) = (&mut self.next, &mut self.half);
         let touched = self.contacts.meet(system, moment, &state.x, next, half)?;

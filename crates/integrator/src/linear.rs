@@ -6,7 +6,7 @@
 use banded::{Banded, BandedFactor, Dense, Operator};
 use glam::{DMat2, DVec2};
 
-use crate::contact::{Contacts, Moment};
+use crate::contact::{Contacts, Moment, Pace};
 use crate::solver::Solver;
 use crate::stepper::{self, Clock, Mass};
 use crate::{Fault, SchemeError, State, Stepper, System};
@@ -132,7 +132,7 @@ impl Stepper for LinearlyImplicit {
         let moment = Moment {
             t: t + dt,
             dt,
-            lag: 0.0, stays: false,
+            pace: Pace::Together,
         };
         let (x, v) = (&mut self.next_x, &mut self.next_v);
         self.contacts

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::contact::{Contacts, Moment};
+use crate::contact::{Contacts, Moment, Pace};
 use crate::solver::Solver;
 use crate::stepper::{self, Clock, Mass};
 use crate::{Fault, SchemeError, State, Stepper, System};
@@ -163,7 +163,7 @@ impl Stepper for GeneralizedAlpha {
         let moment = Moment {
             t: t + dt,
             dt,
-            lag: 0.0, stays: false,
+            pace: Pace::Together,
         };
         let (x, v) = (&mut self.next_x, &mut self.next_v);
         if self
@@ -220,11 +220,25 @@ impl Newmark {
     ) -> Result<Self, SchemeError> {
         system.advance(state.t);
         stepper::check(Self::NAME, system, state, dt, Mass::Needed)?;
+        Self::stand_in(Self::NAME, Mass::Needed, system, state, dt)
+    }
+
+    /// For the steps of another scheme in which something is touched.
+    ///
+    /// A contact in the middle of a long exact or high-order step would be met at its end with all
+    /// the energy of a deformation that never was. Here the step is solved with it.
+    pub(crate) fn stand_in(
+        name: &'static str,
+        need: Mass,
+        system: &dyn System,
+        state: &State,
+        dt: f64,
+    ) -> Result<Self, SchemeError> {
         let weights = (4.0 / (dt * dt), 2.0 / dt);
         let zeros = || vec![DVec2::ZERO; state.len()];
         Ok(Self {
             clock: Clock::new(state, dt),
-            solver: Solver::new(Self::NAME, Mass::Needed, system, weights)?,
+            solver: Solver::new(name, need, system, weights)?,
             force: zeros(),
             external: zeros(),
             next_x: zeros(),
@@ -236,8 +250,28 @@ impl Newmark {
 
 impl Stepper for Newmark {
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
-        let (dt, t) = (self.clock.dt, self.clock.now());
-        self.solver.advance(system, t + 0.5 * dt, &state.x)?;
+        let t = self.clock.now();
+        self.solver
+            .advance(system, t + 0.5 * self.clock.dt, &state.x)?;
+        self.take(system, t, state)?;
+        self.clock.tick(state);
+        Ok(())
+    }
+
+    fn dt(&self) -> f64 {
+        self.clock.dt
+    }
+}
+
+impl Newmark {
+    /// The same step at another's time `t`, which the other counts.
+    pub(crate) fn take(
+        &mut self,
+        system: &mut dyn System,
+        t: f64,
+        state: &mut State,
+    ) -> Result<(), Fault> {
+        let dt = self.clock.dt;
         system.elastic(&state.x, &mut self.force);
         for i in 0..state.len() {
             let held = system.held()[i];
@@ -261,17 +295,17 @@ impl Stepper for Newmark {
         let moment = Moment {
             t: t + dt,
             dt,
-            lag: 0.0, stays: false,
+            pace: Pace::Together,
         };
         self.contacts
             .meet_with(system, moment, &state.x, x, v, Some(&mut self.solver))?;
         std::mem::swap(&mut state.x, x);
         std::mem::swap(&mut state.v, v);
-        self.clock.tick(state);
         Ok(())
     }
 
-    fn dt(&self) -> f64 {
-        self.clock.dt
+    /// Make the factor again from the system as it is.
+    pub(crate) fn rebuild(&mut self, system: &dyn System, x: &[DVec2]) -> Result<(), Fault> {
+        self.solver.rebuild(system, x)
     }
 }

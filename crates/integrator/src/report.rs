@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::contact::{Contacts, Moment};
+use crate::contact::{Contacts, Moment, Pace};
 use crate::stepper::{self, Mass};
 use crate::{Fault, SchemeError, Start, State, Stepper, System};
 
@@ -98,7 +98,7 @@ impl Stepper for Report {
         let moment = Moment {
             t: state.t + dt,
             dt,
-            lag: 0.5 * dt, stays: true,
+            pace: Pace::Late,
         };
         let next = &mut self.next;
         if self

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::contact::{Contacts, Moment};
+use crate::contact::{Contacts, Moment, Pace};
 use crate::stepper::{self, Clock, Mass};
 use crate::{Fault, SchemeError, State, Stepper, System};
 
@@ -163,7 +163,7 @@ impl Stepper for Rk4 {
         let moment = Moment {
             t: t + dt,
             dt,
-            lag: 0.0, stays: false,
+            pace: Pace::Together,
         };
         self.contacts
             .meet(system, moment, &state.x, &mut self.next_x, &mut self.next_v)?;

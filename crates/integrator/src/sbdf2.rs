@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::contact::{Contacts, Moment};
+use crate::contact::{Contacts, Moment, Pace};
 use crate::solver::Solver;
 use crate::stepper::{self, Clock, Mass};
 use crate::{Fault, SchemeError, State, Stepper, System};
@@ -115,7 +115,7 @@ impl Stepper for Sbdf2 {
         let moment = Moment {
             t: t + dt,
             dt,
-            lag: 0.0, stays: false,
+            pace: Pace::Together,
         };
         let (x, v) = (&mut self.next_x, &mut self.next_v);
         let solver = self.starter.as_mut().unwrap_or(&mut self.solver);

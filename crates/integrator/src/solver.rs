@@ -13,6 +13,9 @@ use crate::{Fault, SchemeError, System, Touch};
 /// How much stiffer than its own row of `S` a node in contact is made.
 const FIRM: f64 = 1e4;
 
+/// How often the set of nodes in contact is mended.
+const ROUNDS: usize = 20;
+
 /// `S = p M + q C + A`, factored.
 #[derive(Debug)]
 pub(crate) struct Solver {
@@ -25,7 +28,7 @@ pub(crate) struct Solver {
     diagonal: Vec<f64>,
     /// Which nodes were in contact when `firm` was made.
     touching: Vec<bool>,
-    now: Vec<bool>,
+    pushed: Vec<bool>,
     firm: Option<OperatorFactor>,
     product: Vec<DVec2>,
 }
@@ -50,7 +53,7 @@ impl Solver {
             factor,
             diagonal,
             touching: vec![false; n],
-            now: vec![false; n],
+            pushed: vec![false; n],
             firm: None,
             product: vec![DVec2::ZERO; n],
         })
@@ -66,12 +69,18 @@ impl Solver {
         if !system.advance(t) {
             return Ok(false);
         }
+        self.rebuild(system, x)?;
+        Ok(true)
+    }
+
+    /// Make the factor again from the system as it is.
+    pub(crate) fn rebuild(&mut self, system: &dyn System, x: &[DVec2]) -> Result<(), Fault> {
         stepper::densities(self.name, system, self.need).map_err(|_| stepper::unsolvable(x))?;
         fill(&mut self.diagonal, system, self.weights);
         self.matrix = system.stiffness().shifted(1.0, &self.diagonal);
         self.factor = self.matrix.factor().map_err(|_| stepper::unsolvable(x))?;
         self.firm = None;
-        Ok(true)
+        Ok(())
     }
 
     /// `S`.
@@ -86,22 +95,63 @@ impl Solver {
 
     /// Whether a node was in contact at the last [`follow`](Self::follow).
     pub(crate) fn touches(&self, node: usize) -> bool {
-        self.now[node]
+        self.pushed[node]
     }
 
     /// Let the other nodes follow those in contact.
     ///
     /// `shift` says how far each touched node is moved and becomes how far every node is: the step is
-    /// solved again with the touched ones where they must be. Keeps its factor as long as the same
-    /// nodes touch.
-    pub(crate) fn follow(&mut self, touches: &[Touch], shift: &mut [DVec2]) {
-        self.now.fill(false);
-        for touch in touches {
-            self.now[touch.node] = true;
+    /// solved again with the touched ones where they must be. A node that would have to be pulled
+    /// there is let go, and leaves `touches`. Keeps its factor as long as the same nodes touch.
+    pub(crate) fn follow(&mut self, touches: &mut Vec<Touch>, shift: &mut [DVec2]) {
+        self.pushed.fill(false);
+        let mut again = false;
+        for touch in &*touches {
+            again |= self.touching[touch.node];
+            self.pushed[touch.node] = true;
         }
-        if self.firm.is_none() || self.now != self.touching {
-            self.touching.copy_from_slice(&self.now);
-            let band = self.matrix.band().diagonal();
+        // those that were pushed last time are the best guess
+        if again {
+            for (now, before) in self.pushed.iter_mut().zip(&self.touching) {
+                *now &= before;
+            }
+        }
+        for round in 0..ROUNDS {
+            self.push(shift);
+            let mut changed = false;
+            for touch in &*touches {
+                let i = touch.node;
+                let ahead = (shift[i] - self.product[i]).dot(shift[i]);
+                // short of where it must be: pushed if held there, still inside if not
+                let push = ahead > 0.0;
+                if push != self.pushed[i] && ahead.abs() > 1e-12 * shift[i].length_squared() {
+                    changed = true;
+                    self.pushed[i] = push;
+                }
+            }
+            if !changed {
+                break;
+            }
+            if round + 2 == ROUNDS {
+                // no set satisfies all: hold every one of them
+                touches
+                    .iter()
+                    .for_each(|touch| self.pushed[touch.node] = true);
+            }
+        }
+        touches.retain(|touch| self.pushed[touch.node]);
+        for (i, shift) in shift.iter_mut().enumerate() {
+            if !self.pushed[i] {
+                *shift = self.product[i];
+            }
+        }
+    }
+
+    /// (S + P) Δ = P shift, with P large at the pushed nodes and zero elsewhere.
+    fn push(&mut self, shift: &[DVec2]) {
+        let band = self.matrix.band().diagonal();
+        if self.firm.is_none() || self.pushed != self.touching {
+            self.touching.copy_from_slice(&self.pushed);
             for (i, extra) in self.diagonal.iter_mut().enumerate() {
                 *extra = if self.touching[i] {
                     FIRM * band[i]
@@ -111,21 +161,17 @@ impl Solver {
             }
             self.firm = self.matrix.shifted(1.0, &self.diagonal).factor().ok();
         }
-        let Some(firm) = &self.firm else { return };
-        // (S + P) Δ = P shift, with P large at the touched nodes and zero elsewhere
         for (i, product) in self.product.iter_mut().enumerate() {
-            let stiff = if self.touching[i] {
-                FIRM * self.matrix.band().diagonal()[i]
+            *product = if self.touching[i] {
+                FIRM * band[i] * shift[i]
             } else {
-                0.0
+                DVec2::ZERO
             };
-            *product = stiff * shift[i];
         }
-        firm.solve(&mut self.product);
-        for (i, shift) in shift.iter_mut().enumerate() {
-            if !self.touching[i] {
-                *shift = self.product[i];
-            }
+        match &self.firm {
+            Some(firm) => firm.solve(&mut self.product),
+            // too ill-conditioned to solve: nobody follows
+            None => self.product.fill(DVec2::ZERO),
         }
     }
 }
