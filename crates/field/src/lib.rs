@@ -5,16 +5,26 @@
 //!    I         G ∗ I       ∇(G ∗ I)     P = |∇|     gain · ∇P
 //! ```
 //!
-//! Two recipes: [`report_force`] is the program of the report's Appendix A to the last bit, slips included;
-//! [`edge_force`] is the same idea with the slips put right. Both give a [`ForceField`], which is sampled between
-//! pixel centers, bilinear or by the report's rule. [`signal`] is the chapter's one-dimensional part, [`literal`]
-//! the slow twin that checks the fast code.
+//! | wanted | by |
+//! | --- | --- |
+//! | the program of the report's Appendix A, to the last bit, slips included | [`report_force`] |
+//! | the same idea with the slips put right | [`edge_force`] |
+//! | either of them fast, in `f32`, for 8-bit, 16-bit or float pixels | [`FastForce`], [`fast_force`] |
+//! | … only where someone looks | [`lazy_force`] |
+//! | edges in color, at several scales; lines; ends and corners | a strength grid and [`gradient_force`] |
+//! | edges of one polarity | [`SignedEdge`], which asks for the curve's normal |
+//! | a longer reach | [`distance_force`], [`vector_flow`] (GVF), [`vector_convolution`] (VFC) |
+//!
+//! All but the signed edge give a [`ForceField`], which is sampled between pixel centers: bilinear, bicubic, with
+//! its slope, or by the report's rule. [`signal`] is the chapter's one-dimensional part, [`literal`] the slow twin
+//! that checks the fast code.
 //!
 //! Conventions: x to the right, y **down**, pixel centers at whole numbers, the first at (0, 0); grids are indexed
 //! `[[row, column]]`. Images are checked at the door: no empty ones, no pixel that is NaN or infinite. One pixel,
 //! one row or a constant is a fine image; it has no edge and so no force.
 //!
-//! This crate does no I/O and knows nothing of what will feel the force.
+//! This crate does no I/O and knows nothing of what will feel the force. Not here yet: forces from regions, masks of
+//! valid pixels, edges to sub-pixel.
 //!
 //! ```
 //! use field::{EdgeForce, Grid, edge_force};

@@ -58,32 +58,32 @@ pub(super) fn filter<S: Simd, const ODD: bool>(
     weights: &[f32],
     out: &mut [f32],
 ) {
-    let out = filter_blocks::<S, UNROLL, ODD>(simd, src, at, step, weights, out);
-    let at = at + out.0;
-    let out = filter_blocks::<S, 4, ODD>(simd, src, at, step, weights, out.1);
-    let at = at + out.0;
-    let out = filter_blocks::<S, 2, ODD>(simd, src, at, step, weights, out.1);
-    let at = at + out.0;
-    filter_blocks::<S, 1, ODD>(simd, src, at, step, weights, out.1);
-}
-
-/// [`filter`] for as many whole blocks of `U` vectors as there are: how many numbers, and what is left.
-#[inline(always)]
-fn filter_blocks<'a, S: Simd, const U: usize, const ODD: bool>(
-    simd: S,
-    src: &[f32],
-    at: usize,
-    step: usize,
-    weights: &[f32],
-    out: &'a mut [f32],
-) -> (usize, &'a mut [f32]) {
-    let block = U * S::F32_LANES;
-    let done = out.len() / block * block;
-    let (blocks, rest) = out.split_at_mut(done);
-    for (b, out) in blocks.chunks_exact_mut(block).enumerate() {
-        filter_block::<S, U, ODD>(simd, src, at + b * block, step, weights, out);
+    let n = out.len();
+    let (block, half) = (UNROLL * S::F32_LANES, UNROLL / 2 * S::F32_LANES);
+    let mut done = 0;
+    while n - done >= block {
+        filter_block::<S, UNROLL, ODD>(
+            simd,
+            src,
+            at + done,
+            step,
+            weights,
+            &mut out[done..done + block],
+        );
+        done += block;
     }
-    (done, rest)
+    // the last block reaches back over numbers that are done: computing them again is cheaper than a narrow loop
+    while n - done > half / 2 && n >= half {
+        let from = done.min(n - half);
+        let out = &mut out[from..from + half];
+        filter_block::<S, { UNROLL / 2 }, ODD>(simd, src, at + from, step, weights, out);
+        done = from + half;
+    }
+    while n > done {
+        let out = &mut out[done..done + S::F32_LANES];
+        filter_block::<S, 1, ODD>(simd, src, at + done, step, weights, out);
+        done += S::F32_LANES;
+    }
 }
 
 /// [`filter`] for `U` vectors.
