@@ -13,9 +13,10 @@
 //! | … only where someone looks | [`lazy_force`] |
 //! | edges in color, at several scales; lines; ends and corners | a strength grid and [`gradient_force`] |
 //! | edges of one polarity | [`SignedEdge`], which asks for the curve's normal |
+//! | what lies inside a curve and what outside | [`TwoRegions`], which asks for the curve |
 //! | a longer reach | [`distance_force`], [`vector_flow`] (GVF), [`vector_convolution`] (VFC) |
 //!
-//! All but the signed edge give a [`ForceField`], which is sampled between pixel centers: bilinear, bicubic, with
+//! All but those that ask for the curve give a [`ForceField`], which is sampled between pixel centers: bilinear, bicubic, with
 //! its slope, or by the report's rule. [`signal`] is the chapter's one-dimensional part, [`literal`] the slow twin
 //! that checks the fast code.
 //!
@@ -23,8 +24,8 @@
 //! `[[row, column]]`. Images are checked at the door: no empty ones, no pixel that is NaN or infinite. One pixel,
 //! one row or a constant is a fine image; it has no edge and so no force.
 //!
-//! This crate does no I/O and knows nothing of what will feel the force. Not here yet: forces from regions, masks of
-//! valid pixels, edges to sub-pixel.
+//! This crate does no I/O and knows nothing of what will feel the force. Not here yet: local and histogram
+//! regions, masks of valid pixels, edges to sub-pixel.
 //!
 //! ```
 //! use field::{EdgeForce, Grid, edge_force};
@@ -49,6 +50,7 @@ mod gradient;
 mod grid;
 pub mod literal;
 mod polarity;
+mod region;
 mod report;
 mod sample;
 pub mod signal;
@@ -65,6 +67,7 @@ pub use force_field::ForceField;
 pub use gradient::{Across, mask_x, mask_y};
 pub use grid::{Grid, LARGEST_PIXEL, LARGEST_SIGMA, MOST_PASSES};
 pub use polarity::{Polarity, SignedEdge};
+pub use region::{Means, TwoRegions};
 pub use report::{REPORT_GAIN, REPORT_SCALE, ReportStages, report_force, report_stages};
 pub use sample::Interpolation;
 pub use smooth::{REPORT_PASSES, Smoothing, binomial_x, binomial_y, gaussian_weights};
