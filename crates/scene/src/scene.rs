@@ -146,7 +146,7 @@ impl Scene {
             .map_err(refuse)?;
         let keep = &plan.recording;
         let mut ledger = if keep.energies {
-            let begun = Ledger::begin(&self.snake, &state);
+            let begun = Ledger::begin(&mut self.snake, &state);
             Some(begun.map_err(|fault| SceneError::key("snake.start", fault))?)
         } else {
             None

@@ -81,7 +81,7 @@ impl Ledger {
     /// # Errors
     ///
     /// The fault of the picture's force at a node that it cannot be read at.
-    pub fn begin(snake: &Snake, state: &State) -> Result<Self, Fault> {
+    pub fn begin(snake: &mut Snake, state: &State) -> Result<Self, Fault> {
         let mut force = vec![DVec2::ZERO; snake.body().len()];
         snake.image_force(&state.x, &mut force)?;
         Ok(Self {
@@ -97,7 +97,7 @@ impl Ledger {
     /// # Errors
     ///
     /// As [`Ledger::begin`].
-    pub fn book(&mut self, snake: &Snake, state: &State) -> Result<(), Fault> {
+    pub fn book(&mut self, snake: &mut Snake, state: &State) -> Result<(), Fault> {
         if snake.world().image().is_none() {
             return Ok(());
         }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use elastic::{Bound, Profile};
-use field::ForceField;
+use field::{ForceField, Interpolation};
 use glam::DVec2;
 use integrator::{Fault, FaultKind};
 
@@ -32,22 +32,56 @@ pub struct ImageForce {
 }
 
 impl ImageForce {
-    /// Force on a node at `p`, without the weight.
+    /// Add the weighted force on every node to `force`; `scratch` is as long and overwritten.
     ///
     /// # Errors
     ///
     /// [`FaultKind::OutsideField`] under the report's rule off the picture;
-    /// [`FaultKind::NotFinite`] if `p` is no place.
-    pub fn at(&self, node: usize, p: DVec2) -> Result<DVec2, Fault> {
-        let fault = |kind| Fault { node, at: p, kind };
+    /// [`FaultKind::NotFinite`] for a node that is no place; by the first such node.
+    pub fn add(
+        &self,
+        x: &[DVec2],
+        scratch: &mut [DVec2],
+        force: &mut [DVec2],
+    ) -> Result<(), Fault> {
         match self.sampling {
-            Sampling::Bilinear if p.is_finite() => Ok(self.field.at(p)),
-            Sampling::Bilinear => Err(fault(FaultKind::NotFinite)),
-            Sampling::OneAxis => self
-                .field
-                .at_report(p)
-                .map_err(|_| fault(FaultKind::OutsideField)),
+            Sampling::Bilinear => {
+                self.field.sample_into(x, Interpolation::Bilinear, scratch);
+                // a place that is none has a force that is none; found by the sum, once
+                if !scratch.iter().sum::<DVec2>().is_finite()
+                    && let Some(node) = x.iter().position(|p| !p.is_finite())
+                {
+                    return Err(Fault {
+                        node,
+                        at: x[node],
+                        kind: FaultKind::NotFinite,
+                    });
+                }
+            }
+            Sampling::OneAxis => {
+                for (node, (out, &at)) in scratch.iter_mut().zip(x).enumerate() {
+                    let fault = |_| Fault {
+                        node,
+                        at,
+                        kind: FaultKind::OutsideField,
+                    };
+                    *out = self.field.at_report(at).map_err(fault)?;
+                }
+            }
         }
+        match &self.weight {
+            Profile::Uniform(weight) => {
+                for (f, &sampled) in force.iter_mut().zip(&*scratch) {
+                    *f += sampled * *weight;
+                }
+            }
+            Profile::PerNode(weights) => {
+                for ((f, &sampled), &weight) in force.iter_mut().zip(&*scratch).zip(weights) {
+                    *f += sampled * weight;
+                }
+            }
+        }
+        Ok(())
     }
 }
 

@@ -6,7 +6,7 @@ use field::Interpolation;
 use glam::{DMat2, DVec2};
 use integrator::{Fault, State, System, Touch};
 
-use crate::{Body, Center, Energies, External, Sampling, SnakeError, World};
+use crate::{Body, Center, Energies, External, Sampling, SnakeError, Wall, World};
 
 /// A snake: a [`Body`] in a [`World`], ready to be moved by any scheme of [`integrator`].
 #[derive(Debug, Clone)]
@@ -23,6 +23,7 @@ pub struct Snake {
     factors: [f64; 5],
     stiffness: Operator,
     deformation: Vec<DVec2>,
+    scratch: Vec<DVec2>,
 }
 
 impl Snake {
@@ -40,8 +41,9 @@ impl Snake {
         let factors = body.schedules.at(0.0);
         let (material, mass, damping) = scaled(&body, factors);
         let stiffness = operator(&body, &material, &weights, &held)?;
-        let deformation = vec![DVec2::ZERO; n];
+        let (deformation, scratch) = (vec![DVec2::ZERO; n], vec![DVec2::ZERO; n]);
         Ok(Self {
+            scratch,
             body,
             world,
             weights,
@@ -90,13 +92,11 @@ impl Snake {
     /// # Errors
     ///
     /// The fault of the first node at which a field cannot be read.
-    pub fn image_force(&self, x: &[DVec2], force: &mut [DVec2]) -> Result<(), Fault> {
+    pub fn image_force(&mut self, x: &[DVec2], force: &mut [DVec2]) -> Result<(), Fault> {
         force.fill(DVec2::ZERO);
         for external in &self.world.externals {
             if let External::Image(image) = external {
-                for (i, (f, &p)) in force.iter_mut().zip(x).enumerate() {
-                    *f += image.at(i, p)? * image.weight.at(i);
-                }
+                image.add(x, &mut self.scratch, force)?;
             }
         }
         Ok(())
@@ -303,14 +303,10 @@ impl System for Snake {
                         *f += *g * mass;
                     }
                 }
-                External::Image(image) => {
-                    for (i, (f, &p)) in force.iter_mut().zip(x).enumerate() {
-                        *f += image.at(i, p)? * image.weight.at(i);
-                    }
-                }
+                External::Image(image) => image.add(x, &mut self.scratch, force)?,
             }
         }
-        for wall in &self.world.walls {
+        for wall in self.world.walls.iter().filter(|wall| wall.is_spring()) {
             for ((f, &p), &v) in force.iter_mut().zip(x).zip(v) {
                 *f += wall.force(p, v);
             }
@@ -326,6 +322,9 @@ impl System for Snake {
         v: &[DVec2],
         touches: &mut Vec<Touch>,
     ) {
+        if self.world.walls.iter().all(Wall::is_spring) {
+            return;
+        }
         for (node, (&x, &v)) in x.iter().zip(v).enumerate() {
             let (mut place, mut velocity) = (x, v);
             for wall in &self.world.walls {

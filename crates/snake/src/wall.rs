@@ -129,6 +129,12 @@ impl Wall {
         self.law
     }
 
+    /// Whether it acts by a force, not by a touch after the step.
+    #[must_use]
+    pub const fn is_spring(&self) -> bool {
+        matches!(self.law, WallLaw::Penalty { .. })
+    }
+
     /// Signed distance of a point: negative behind the wall.
     #[must_use]
     pub fn distance(&self, x: DVec2) -> f64 {
