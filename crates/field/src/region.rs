@@ -259,6 +259,8 @@ mod tests {
             let slope = (energy(radius + step) - energy(radius - step)) / (2.0 * step);
             let polygon = circle(center, radius, 400);
             let means = regions.means(&polygon);
+            // two regions of the same grey: nothing but the steps of pixels is left to compare
+            prop_assume!((means.inside - means.outside).abs() > 2.0);
             let arc = TAU * radius / 400.0;
             let force: f64 = polygon.iter().map(|&p| arc * regions.normal_force(p, &means)).sum();
             let size: f64 = polygon.iter().map(|&p| arc * regions.normal_force(p, &means).abs()).sum();
