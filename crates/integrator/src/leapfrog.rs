@@ -85,6 +85,36 @@ impl Leapfrog {
         Ok(stepper)
     }
 
+    /// A start of first order means v₀ half a step ago.
+    fn catch_up(&mut self, v: &[DVec2]) {
+        for (i, half) in self.half.iter_mut().enumerate() {
+            let c = self.coefficients[i];
+            *half = c.settle * (v[i] + c.kick * self.force[i]);
+        }
+    }
+
+    /// From the velocity in `half` to the one half a step later, and with it to `next`.
+    fn drift(&mut self, x: &[DVec2]) -> Result<(), Fault> {
+        let (n, dt) = (x.len(), self.clock.dt);
+        let (force, coefficients) = (&self.force[..n], &self.coefficients[..n]);
+        let (half, next) = (&mut self.half[..n], &mut self.next[..n]);
+        let mut finite = true;
+        for i in 0..n {
+            let c = coefficients[i];
+            let v = c.keep * half[i] + c.kick * force[i];
+            let place = x[i] + dt * v;
+            half[i] = v;
+            next[i] = place;
+            // no early way out: one comparison a number
+            finite &= place.x.is_finite() & place.y.is_finite();
+        }
+        if finite {
+            Ok(())
+        } else {
+            stepper::finite(next)
+        }
+    }
+
     fn prepare(&mut self, system: &dyn System) {
         let (mass, damping, held) = (system.mass(), system.damping(), system.held());
         self.coefficients.clear();
@@ -111,18 +141,13 @@ impl Stepper for Leapfrog {
                 &mut self.force,
             )?;
         }
-        let late = !self.ready && self.start == Start::FirstOrder;
-        for i in 0..state.len() {
-            let c = self.coefficients[i];
-            let mut v = state.v[i];
-            if late {
-                // v₀ was meant half a step ago
-                v = c.settle * (v + c.kick * self.force[i]);
-            }
-            self.half[i] = c.keep * v + c.kick * self.force[i];
-            self.next[i] = state.x[i] + dt * self.half[i];
+        if !self.ready && self.start == Start::FirstOrder {
+            self.catch_up(&state.v);
+            self.start = Start::SecondOrder;
+        } else {
+            self.half.copy_from_slice(&state.v);
         }
-        stepper::finite(&self.next)?;
+        self.drift(&state.x)?;
         let t = self.clock.next();
         if system.advance(t) {
             if stepper::densities(Self::NAME, system, Mass::Needed).is_err() {
@@ -141,9 +166,12 @@ impl Stepper for Leapfrog {
         self.ready = false;
         stepper::force(system, t, next, half, &mut self.force)?;
         self.ready = true;
-        for i in 0..state.len() {
-            let c = self.coefficients[i];
-            state.v[i] = c.settle * (half[i] + c.kick * self.force[i]);
+        let n = state.len();
+        let (force, coefficients) = (&self.force[..n], &self.coefficients[..n]);
+        let (v, half) = (&mut state.v[..n], &half[..n]);
+        for i in 0..n {
+            let c = coefficients[i];
+            v[i] = c.settle * (half[i] + c.kick * force[i]);
         }
         if touched {
             for touch in &self.contacts.touches {

@@ -1,6 +1,7 @@
 //! Every scheme against exact motions: orders, borders of stability, energies, refusals.
 
 mod contact;
+mod edge;
 mod exact;
 mod order;
 mod recurrence;
