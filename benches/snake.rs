@@ -52,8 +52,7 @@ fn step(c: &mut Criterion) {
                 };
                 let (mut snake, mut state) = ring(n, world);
                 // a scheme that is not made for such a snake has nothing to time
-                let Ok(mut stepper) =
-                    scheme.start(&mut snake, &state, 0.05, Start::SecondOrder)
+                let Ok(mut stepper) = scheme.start(&mut snake, &state, 0.05, Start::SecondOrder)
                 else {
                     continue;
                 };
