@@ -19,18 +19,21 @@ use crate::{Fault, SchemeError, Start, State, Stepper, System};
 #[derive(Debug)]
 pub(crate) struct Leapfrog {
     clock: Clock,
-    start: Start,
     /// Whether `force` holds the force at the state.
     ready: bool,
     force: Vec<DVec2>,
     next: Vec<DVec2>,
     half: Vec<DVec2>,
     coefficients: Vec<Coefficients>,
+    /// Those of all nodes, where they are the same.
+    common: Option<Coefficients>,
+    /// Velocities at the first of a start of first order.
+    early: Vec<DVec2>,
     contacts: Contacts,
 }
 
 /// One node's share: all zero for a held one.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 struct Coefficients {
     /// 1 − a/2.
     keep: f64,
@@ -73,45 +76,65 @@ impl Leapfrog {
         let zeros = || vec![DVec2::ZERO; n];
         let mut stepper = Self {
             clock: Clock::new(state, dt),
-            start,
             ready: false,
             force: zeros(),
             next: zeros(),
             half: zeros(),
             coefficients: Vec::with_capacity(n),
+            common: None,
+            early: if start == Start::FirstOrder {
+                state.v.clone()
+            } else {
+                Vec::new()
+            },
             contacts: Contacts::new(n),
         };
         stepper.prepare(system);
         Ok(stepper)
     }
 
-    /// A start of first order means v₀ half a step ago.
-    fn catch_up(&mut self, v: &[DVec2]) {
-        for (i, half) in self.half.iter_mut().enumerate() {
+    /// A start of first order means v₀ half a step ago: what it is at the start.
+    fn catch_up(&self, early: &mut [DVec2]) {
+        for (i, v) in early.iter_mut().enumerate() {
             let c = self.coefficients[i];
-            *half = c.settle * (v[i] + c.kick * self.force[i]);
+            *v = c.settle * (*v + c.kick * self.force[i]);
         }
     }
 
-    /// From the velocity in `half` to the one half a step later, and with it to `next`.
-    fn drift(&mut self, x: &[DVec2]) -> Result<(), Fault> {
+    /// From the velocity at the start to the one half a step later, and with it to `next`.
+    fn drift(&mut self, x: &[DVec2], v: &[DVec2]) -> Result<(), Fault> {
         let (n, dt) = (x.len(), self.clock.dt);
-        let (force, coefficients) = (&self.force[..n], &self.coefficients[..n]);
+        let (v, force, coefficients) = (&v[..n], &self.force[..n], &self.coefficients[..n]);
         let (half, next) = (&mut self.half[..n], &mut self.next[..n]);
         let mut finite = true;
-        for i in 0..n {
-            let c = coefficients[i];
-            let v = c.keep * half[i] + c.kick * force[i];
-            let place = x[i] + dt * v;
-            half[i] = v;
+        let mut node = |i: usize, c: Coefficients| {
+            let speed = c.keep * v[i] + c.kick * force[i];
+            let place = x[i] + dt * speed;
+            half[i] = speed;
             next[i] = place;
             // no early way out: one comparison a number
             finite &= place.x.is_finite() & place.y.is_finite();
+        };
+        match self.common {
+            Some(c) => (0..n).for_each(|i| node(i, c)),
+            None => (0..n).for_each(|i| node(i, coefficients[i])),
         }
         if finite {
             Ok(())
         } else {
             stepper::finite(next)
+        }
+    }
+
+    /// From the velocity in `half` to the one at the end of the step, in `v`.
+    fn arrive(&self, v: &mut [DVec2]) {
+        let n = v.len();
+        let (half, force) = (&self.half[..n], &self.force[..n]);
+        let coefficients = &self.coefficients[..n];
+        let mut node = |i: usize, c: Coefficients| v[i] = c.settle * (half[i] + c.kick * force[i]);
+        match self.common {
+            Some(c) => (0..n).for_each(|i| node(i, c)),
+            None => (0..n).for_each(|i| node(i, coefficients[i])),
         }
     }
 
@@ -126,6 +149,8 @@ impl Leapfrog {
                 self.clock.dt,
             ));
         }
+        let first = self.coefficients.first().copied();
+        self.common = first.filter(|first| self.coefficients.iter().all(|c| c == first));
     }
 }
 
@@ -141,13 +166,13 @@ impl Stepper for Leapfrog {
                 &mut self.force,
             )?;
         }
-        if !self.ready && self.start == Start::FirstOrder {
-            self.catch_up(&state.v);
-            self.start = Start::SecondOrder;
+        if self.early.is_empty() {
+            self.drift(&state.x, &state.v)?;
         } else {
-            self.half.copy_from_slice(&state.v);
+            let mut early = std::mem::take(&mut self.early);
+            self.catch_up(&mut early);
+            self.drift(&state.x, &early)?;
         }
-        self.drift(&state.x)?;
         let t = self.clock.next();
         if system.advance(t) {
             if stepper::densities(Self::NAME, system, Mass::Needed).is_err() {
@@ -166,19 +191,13 @@ impl Stepper for Leapfrog {
         self.ready = false;
         stepper::force(system, t, next, half, &mut self.force)?;
         self.ready = true;
-        let n = state.len();
-        let (force, coefficients) = (&self.force[..n], &self.coefficients[..n]);
-        let (v, half) = (&mut state.v[..n], &half[..n]);
-        for i in 0..n {
-            let c = coefficients[i];
-            v[i] = c.settle * (half[i] + c.kick * force[i]);
-        }
+        self.arrive(&mut state.v);
         if touched {
             for touch in &self.contacts.touches {
-                state.v[touch.node] = half[touch.node];
+                state.v[touch.node] = self.half[touch.node];
             }
         }
-        std::mem::swap(&mut state.x, next);
+        std::mem::swap(&mut state.x, &mut self.next);
         self.clock.tick(state);
         Ok(())
     }
