@@ -158,7 +158,17 @@ impl ForceField {
     /// Outside the image, the force of the nearest point of the rectangle of pixel centers.
     #[must_use]
     pub fn sample(&self, p: DVec2, rule: Interpolation) -> DVec2 {
-        sample::value(|row, column| self.force(row, column), self.dim(), p, rule)
+        let dim = self.dim();
+        // asked once a point, not at every pixel, where the forces are
+        match &self.forces {
+            Forces::Double(f) => sample::value(|row, column| f[[row, column]], dim, p, rule),
+            Forces::Single(f) => {
+                sample::value(|row, column| widened(f[[row, column]]), dim, p, rule)
+            }
+            Forces::Tiles { .. } => {
+                sample::value(|row, column| self.force(row, column), dim, p, rule)
+            }
+        }
     }
 
     /// The force at any point and its slope, for schemes that look ahead: the columns are ∂F/∂x and ∂F/∂y.
@@ -172,19 +182,8 @@ impl ForceField {
 
     /// [`ForceField::sample`] at many points: the shorter of the two slices says how many.
     pub fn sample_into(&self, points: &[DVec2], rule: Interpolation, forces: &mut [DVec2]) {
-        let dim = self.dim();
-        let pairs = points.iter().zip(forces);
-        // asked once, not at every pixel, where the forces are
-        match &self.forces {
-            Forces::Double(f) => {
-                let force = |row, column| f[[row, column]];
-                pairs.for_each(|(&p, out)| *out = sample::value(force, dim, p, rule));
-            }
-            Forces::Single(f) => {
-                let force = |row, column| widened(f[[row, column]]);
-                pairs.for_each(|(&p, out)| *out = sample::value(force, dim, p, rule));
-            }
-            Forces::Tiles { .. } => pairs.for_each(|(&p, out)| *out = self.sample(p, rule)),
+        for (&p, force) in points.iter().zip(forces) {
+            *force = self.sample(p, rule);
         }
     }
 

@@ -37,7 +37,7 @@ pub(crate) fn cell(x: f64, n: usize) -> (usize, f64, bool) {
     let last = n - 1;
     let inside = x.clamp(0.0, last as f64);
     // NaN stays NaN and is cell 0: the weight carries it into the force
-    let first = (inside.floor() as usize).min(last.saturating_sub(1));
+    let first = (inside as usize).min(last.saturating_sub(1));
     (first, inside - first as f64, x < 0.0 || x > last as f64)
 }
 
