@@ -1,11 +1,27 @@
 //! The table of all experiments, in the order of the report.
 
 use crate::Experiment;
-use crate::experiments::{angle, damping, disc, force_field, matrix, signal, smoothing, time_step};
+use crate::experiments::{
+    angle, apple, ball, corners, damping, decomposition, disc, ends, energy, force_field, matrix,
+    profiles, signal, smoothing, time_step,
+};
 
 /// Every experiment. A new one is added here and nowhere else.
 pub const EXPERIMENTS: &[&Experiment] = &[
+    &decomposition::DECOMPOSITION,
+    &energy::ENERGY,
+    &ball::VERY_SOFT,
+    &ball::SOFT,
+    &ball::RIGID,
+    &ball::HARD,
+    &ball::VERY_HARD,
+    &ball::OVERVIEW,
+    &ball::WALLS,
+    &ball::FRICTION,
     &matrix::MATRIX,
+    &ends::ENDS_OF_A_STRIP,
+    &corners::CORNERS,
+    &profiles::PROFILES,
     &damping::DAMPING,
     &time_step::TIME_STEP,
     &smoothing::SMOOTHING,
@@ -14,6 +30,13 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &signal::FORCE,
     &disc::DISC,
     &force_field::FIELD,
+    &apple::FIRST,
+    &apple::SECOND,
+    &apple::THIRD,
+    &apple::OVERVIEW,
+    &apple::DRAWN,
+    &apple::RULES,
+    &apple::CLOSED,
     &angle::ANGLE,
 ];
 

@@ -1,11 +1,19 @@
 //! The experiments, one file a family.
 
 pub(crate) mod angle;
+pub(crate) mod apple;
+pub(crate) mod ball;
+pub(crate) mod corners;
 pub(crate) mod damping;
+pub(crate) mod decomposition;
 pub(crate) mod disc;
+pub(crate) mod ends;
+pub(crate) mod energy;
 pub(crate) mod force_field;
 pub(crate) mod matrix;
+mod motion;
 mod pixels;
+pub(crate) mod profiles;
 pub(crate) mod signal;
 pub(crate) mod smoothing;
 pub(crate) mod time_step;
