@@ -117,9 +117,11 @@ impl Scheme {
             Self::Radau5 => along_roots(a + q, l + k, |z| {
                 over(polynomial(z, &RADAU_ABOVE), polynomial(z, &RADAU_BELOW))
             }),
-            Self::Exact => radius::<2>(|[x, w]| {
-                let [x, w] = kick(m, [x, w]);
-                kick(m, flow(m, [x, w], -l * x))
+            // the force at the end sees the velocity before its own kick, and is kept for the next step
+            Self::Exact => radius::<3>(|[x, w, push]| {
+                let [x, w] = flow(m, [x, w + 0.5 * push], -l * x);
+                let push = m.external(x, w);
+                [x, w + 0.5 * push, push]
             }),
             Self::Etd2 => {
                 let response = Oscillator::new(a, l, 1.0);
@@ -136,11 +138,6 @@ impl Scheme {
             Self::GradientFlow => f64::NAN,
         }
     }
-}
-
-/// Half a kick by the external force.
-fn kick(mode: Scaled, [x, w]: [f64; 2]) -> [f64; 2] {
-    [x, w + 0.5 * mode.external(x, w)]
 }
 
 /// The exact motion over one step under the force `push`.

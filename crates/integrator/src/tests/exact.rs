@@ -104,6 +104,36 @@ fn what_cannot_be_taken_apart_is_refused_with_the_reason() {
 }
 
 #[test]
+fn what_all_nodes_share_changes_only_the_mode_in_which_all_move_alike() {
+    // a body frame: K − 1 (1ᵀK1/n²) 1ᵀ lets the ring drift although it is tethered
+    let n = 24;
+    let mut problem = problems::ring(n, 1.0, 0.3, [2.0, 5.0, 1.0]).unwrap();
+    let band = problem.system.stiffness().band().clone();
+    let share = -2.0 / n as f64;
+    let framed = banded::Operator::new(band, vec![vec![1.0; n]], vec![share]).unwrap();
+    problem.system.set_stiffness(framed);
+    let ends = [(Scheme::Exact, 4.0, 1), (Scheme::Radau5, 0.01, 400)].map(|(scheme, dt, steps)| {
+        let (mut system, mut state) = (problem.system.clone(), problem.state.clone());
+        let mut stepper = scheme
+            .start(&mut system, &state, dt, Start::SecondOrder)
+            .unwrap();
+        for _ in 0..steps {
+            stepper.step(&mut system, &mut state).unwrap();
+        }
+        state
+    });
+    for i in 0..n {
+        // Radau's error at this step: (√λ dt)⁵ of modes up to λ = 38
+        assert!((ends[0].x[i] - ends[1].x[i]).length() < 1e-8);
+    }
+    // the mean moves as if free: x̄ + v̄ (1 − exp(−γt/μ)) μ/γ
+    let mean = |x: &[DVec2]| x.iter().sum::<DVec2>() / n as f64;
+    let gone = (1.0 - f64::exp(-0.3 * 4.0)) / 0.3;
+    let drift = mean(&problem.state.x) + gone * mean(&problem.state.v);
+    assert!((mean(&ends[0].x) - drift).length() < 1e-12);
+}
+
+#[test]
 fn damping_in_proportion_to_an_uneven_mass_is_taken_apart() {
     let mut problem = problems::chain(12, 1.0, 0.0, 4.0).unwrap();
     for i in 0..12 {
