@@ -35,10 +35,22 @@ scenes![
 ];
 
 const CONTOURS: [(&str, &str); 5] = [
-    ("apple-report-start", include_str!("../pictures/apple_report_start.csv")),
-    ("apple-over-the-stem", include_str!("../pictures/apple_over_the_stem.csv")),
-    ("apple-without-the-stem", include_str!("../pictures/apple_without_the_stem.csv")),
-    ("apple-whole-without-the-stem", include_str!("../pictures/apple_whole_without_the_stem.csv")),
+    (
+        "apple-report-start",
+        include_str!("../pictures/apple_report_start.csv"),
+    ),
+    (
+        "apple-over-the-stem",
+        include_str!("../pictures/apple_over_the_stem.csv"),
+    ),
+    (
+        "apple-without-the-stem",
+        include_str!("../pictures/apple_without_the_stem.csv"),
+    ),
+    (
+        "apple-whole-without-the-stem",
+        include_str!("../pictures/apple_whole_without_the_stem.csv"),
+    ),
     ("apple-truth", include_str!("../pictures/apple_contour.csv")),
 ];
 
@@ -55,6 +67,16 @@ pub(crate) fn text(name: &str) -> Result<&'static str, SceneError> {
                 nearest: nearest.to_owned(),
             }
         })
+}
+
+/// Title of a shipped scene and its place in the report, without building it.
+///
+/// # Errors
+///
+/// [`SceneError::UnknownScene`] with the nearest name.
+pub fn headline(name: &str) -> Result<(String, Option<String>), SceneError> {
+    let text = crate::toml_error::parse(text(name)?)?;
+    Ok((text.title, text.report))
 }
 
 /// Boxes `[x0, y0, x1, y1]` of what is in the apple's way, by name: the stem, highlights, pencils,

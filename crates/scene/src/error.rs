@@ -24,7 +24,9 @@ pub enum SceneError {
         message: String,
     },
     /// No shipped scene has this name.
-    #[error("no scene is called \"{name}\"; did you mean \"{nearest}\"? (list shows all)")]
+    #[error(
+        "no shipped scene is called \"{name}\"; did you mean \"{nearest}\"? (`snake list` shows all; a file needs its ending or a folder)"
+    )]
     UnknownScene {
         /// The name given.
         name: String,
@@ -58,6 +60,20 @@ impl SceneError {
             message: message.to_string(),
         }
     }
+}
+
+/// At most sixty characters of what was given, on one line, for a message.
+pub(crate) fn clip(given: &str) -> String {
+    let mut short: String = given
+        .trim()
+        .chars()
+        .take(60)
+        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
+        .collect();
+    if given.trim().chars().nth(60).is_some() {
+        short.push('…');
+    }
+    short
 }
 
 /// The entry of `known` that is most like `word`.

@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
-use elastic::{Material, Parameter, Topology};
+use elastic::{ElasticError, Material, Parameter, Topology};
 use field::{EdgeForce, Smoothing};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
-use snake::{Body, Rest, Sampling, Snake, Until, Wall, WallLaw, World};
+use snake::{Body, Rest, Sampling, Snake, SnakeError, Until, Wall, WallLaw, World};
 
+use crate::build::{outside, smoothing};
+use crate::limits::MOST_NODES;
 use crate::scene::{Plan, Recording, Scene, View};
 use crate::{Contour, Picture, SceneError};
 
@@ -72,30 +74,18 @@ impl Fit {
         if closed && clicks.len() > 1 && clicks.first() == clicks.last() {
             clicks.pop();
         }
-        let refuse = |flag: &'static str| move |e: elastic::ElasticError| SceneError::key(flag, e);
-        let (width, height) = picture.size();
-        let far = DVec2::new(width as f64, height as f64) - 0.5;
-        if let Some(i) = clicks
-            .iter()
-            .position(|p| p.cmplt(DVec2::splat(-0.5)).any() || p.cmpgt(far).any())
-        {
-            let p = clicks[i];
-            let message = format!(
-                "point {i} at ({}, {}) is outside the picture of {width}×{height} pixels",
-                p.x, p.y
-            );
-            return Err(SceneError::key("--from", message));
+        if let Some(message) = outside(&clicks, &picture, 0.5) {
+            return Err(SceneError::key("--from", format!("point {message}")));
         }
         let along = elastic::length(&clicks, closed);
         let nodes = self.nodes.unwrap_or_else(|| nodes_for(along));
-        if nodes > 10_000_000 {
-            return Err(SceneError::key(
-                "--nodes",
-                format!("got {nodes}; at most 10000000 would do"),
-            ));
+        if nodes > MOST_NODES {
+            let message = format!("got {nodes}; at most {MOST_NODES} would do");
+            return Err(SceneError::key("--nodes", message));
         }
-        let mut x = elastic::spline(&clicks, nodes, Parameter::ArcLength, closed)
-            .map_err(refuse("--from"))?;
+        let mut x =
+            elastic::spline(&clicks, nodes, Parameter::ArcLength, closed).map_err(|e| curve(&e))?;
+        let (width, height) = picture.size();
         let last = DVec2::new((width - 1) as f64, (height - 1) as f64);
         for p in &mut x {
             *p = p.clamp(DVec2::ZERO, last);
@@ -118,7 +108,7 @@ impl Fit {
         let gain =
             self.strength * EdgeForce::as_strong_as_the_report().gain * 120.0 / contrast(&picture);
         let rule = EdgeForce {
-            smoothing: Smoothing::Gaussian(self.sigma),
+            smoothing: smoothing("--sigma", Smoothing::Gaussian(self.sigma), &picture)?,
             gain,
         };
         let field =
@@ -129,7 +119,10 @@ impl Fit {
         } else {
             Topology::open(elastic::End::Free)
         };
-        let unfit = |e: snake::SnakeError| SceneError::key("--from", e);
+        let unfit = |e: SnakeError| match &e {
+            SnakeError::Elastic(e) => curve(e),
+            _ => SceneError::key("--from", e),
+        };
         let body = Body::of(&x, topology, 1.0)
             .map_err(unfit)?
             .with_material(Material::uniform(self.tether, self.tension, self.rigidity))
@@ -178,6 +171,16 @@ impl Fit {
             },
         })
     }
+}
+
+/// An error of the curve, under the flag it belongs to.
+fn curve(error: &ElasticError) -> SceneError {
+    let flag = match error {
+        ElasticError::TooFewNodes { .. } => "--nodes",
+        ElasticError::TooStiff { .. } => "--rigidity",
+        _ => "--from",
+    };
+    SceneError::key(flag, error)
 }
 
 /// One node every four pixels.

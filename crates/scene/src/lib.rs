@@ -24,14 +24,17 @@ mod contour;
 mod error;
 mod file;
 mod fit;
+mod limits;
 pub mod paint;
 mod picture;
+mod read;
 mod record;
 mod scene;
 mod stages;
+mod toml_error;
 mod write;
 
-pub use catalogue::{APPLE_DISTURBING, SCENES, contour};
+pub use catalogue::{APPLE_DISTURBING, SCENES, contour, headline};
 pub use contour::Contour;
 pub use error::SceneError;
 pub use fit::Fit;
@@ -39,7 +42,7 @@ pub use picture::Picture;
 pub use record::{Frame, Record};
 pub use scene::{Plan, Recording, Scene, View};
 pub use stages::{stages, write_stages};
-pub use write::{ready_folder, write_whole};
+pub use write::{ready_file, ready_folder, write_whole};
 
 pub use elastic;
 pub use field;

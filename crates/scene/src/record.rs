@@ -41,7 +41,14 @@ impl Frame {
             t: state.t,
             nodes: state.x.clone(),
             velocities: keep.velocities.then(|| state.v.clone()),
-            energies: ledger.map(|ledger| ledger.energies(snake, state)),
+            energies: ledger.map(|ledger| {
+                let energies = ledger.energies(snake, state);
+                // minus no work is plain zero
+                Energies {
+                    image: energies.image + 0.0,
+                    ..energies
+                }
+            }),
         }
     }
 }
@@ -53,7 +60,7 @@ pub struct Record {
     pub scene: String,
     /// The scene's title.
     pub title: String,
-    /// The scheme's name.
+    /// The scheme, with its parameter if it has one.
     pub scheme: String,
     /// The step.
     pub dt: f64,
@@ -106,14 +113,19 @@ struct Footer {
     step: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
     node: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at: Option<[f64; 2]>,
 }
+
+/// The version of both formats.
+const VERSION: u32 = 1;
 
 impl Record {
     pub(crate) fn of(scene: &Scene) -> Self {
         Self {
             scene: scene.name.clone(),
             title: scene.title.clone(),
-            scheme: scene.plan.scheme.name().to_owned(),
+            scheme: scene.plan.scheme.to_string(),
             dt: scene.plan.dt,
             closed: matches!(scene.snake.body().topology, elastic::Topology::Closed),
             frames: Vec::new(),
@@ -131,7 +143,7 @@ impl Record {
     ///
     /// # Errors
     ///
-    /// None in practice: a frame holds finite numbers only.
+    /// None in practice: a number that is not finite is written as null.
     pub fn to_json_lines(&self) -> Result<String, SceneError> {
         let pairs = |list: &[DVec2]| list.iter().map(|p| p.to_array()).collect();
         let mut text = String::new();
@@ -144,7 +156,7 @@ impl Record {
             Err(error) => Err(SceneError::key("record", error)),
         };
         push(serde_json::to_string(&Header {
-            snake_record: 1,
+            snake_record: VERSION,
             scene: &self.scene,
             title: &self.title,
             scheme: &self.scheme,
@@ -170,27 +182,33 @@ impl Record {
                 }),
             }))?;
         }
-        let (outcome, node) = match self.outcome {
-            Outcome::Finished { .. } => ("finished", None),
-            Outcome::Settled { .. } => ("settled", None),
-            Outcome::Stopped { .. } => ("stopped", None),
-            Outcome::Diverged { node, .. } => ("diverged", Some(node)),
-            Outcome::LeftField { node, .. } => ("left-field", Some(node)),
+        let (outcome, node, at) = match self.outcome {
+            Outcome::Finished { .. } => ("finished", None, None),
+            Outcome::Settled { .. } => ("settled", None, None),
+            Outcome::Stopped { .. } => ("stopped", None, None),
+            Outcome::Diverged { node, .. } => ("diverged", Some(node), None),
+            Outcome::LeftField { node, at, .. } => ("left-field", Some(node), Some(at.to_array())),
         };
         push(serde_json::to_string(&Footer {
             outcome,
             step: self.outcome.step(),
             node,
+            at,
         }))?;
         Ok(text)
     }
 
-    /// The record as CSV: one line a node and kept moment, energies repeated on each of its lines.
+    /// The record as CSV: one line a node and kept moment, energies (and their sum, `total`) repeated
+    /// on each of its lines.
     #[must_use]
     pub fn to_csv(&self) -> String {
         let velocities = self.frames.iter().any(|f| f.velocities.is_some());
         let energies = self.frames.iter().any(|f| f.energies.is_some());
-        let mut text = String::from("step,t,node,x,y");
+        let closed = if self.closed { "closed" } else { "open" };
+        let mut text = format!(
+            "# record {VERSION}, {closed}, {}, dt {:?}, {}\nstep,t,node,x,y",
+            self.scheme, self.dt, self.outcome
+        );
         if velocities {
             text.push_str(",vx,vy");
         }
@@ -198,17 +216,18 @@ impl Record {
             for name in Energies::NAMES {
                 let _ = write!(text, ",{name}");
             }
+            text.push_str(",total");
         }
         text.push('\n');
         for frame in &self.frames {
             for (i, p) in frame.nodes.iter().enumerate() {
-                let _ = write!(text, "{},{},{i},{},{}", frame.step, frame.t, p.x, p.y);
+                let _ = write!(text, "{},{:?},{i},{:?},{:?}", frame.step, frame.t, p.x, p.y);
                 if let Some(v) = &frame.velocities {
-                    let _ = write!(text, ",{},{}", v[i].x, v[i].y);
+                    let _ = write!(text, ",{:?},{:?}", v[i].x, v[i].y);
                 }
                 if let Some(e) = &frame.energies {
-                    for value in e.values() {
-                        let _ = write!(text, ",{value}");
+                    for value in e.values().into_iter().chain([e.total()]) {
+                        let _ = write!(text, ",{value:?}");
                     }
                 }
                 text.push('\n');

@@ -9,8 +9,9 @@ use glam::DVec2;
 use integrator::{Scheme, SchemeError, Start, State};
 use snake::{Ledger, Outcome, Snake, Until};
 
+use crate::limits::{MOST_KEPT, MOST_SCENE_BYTES, MOST_STEPS};
 use crate::record::{Frame, Record};
-use crate::{Picture, SceneError, build, catalogue, file};
+use crate::{Picture, SceneError, build, catalogue, read, toml_error};
 
 /// How a drawing should look at a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -35,8 +36,28 @@ pub struct Recording {
 }
 
 impl Recording {
+    /// The same with its steps in order: what [`Recording::keeps`] needs.
+    fn sorted(&self) -> Self {
+        let mut sorted = self.clone();
+        sorted.steps.sort_unstable();
+        sorted
+    }
+
     fn keeps(&self, step: u64) -> bool {
-        self.every.is_some_and(|every| step.is_multiple_of(every)) || self.steps.contains(&step)
+        self.every
+            .is_some_and(|every| step.is_multiple_of(every.max(1)))
+            || self.steps.binary_search(&step).is_ok()
+    }
+
+    /// Points and velocities that a run of `steps` steps of `n` nodes would keep at most.
+    fn kept(&self, steps: u64, n: usize) -> u64 {
+        let moments = self.every.map_or(0, |every| steps / every.max(1));
+        let listed = (self.steps.len() as u64).min(steps);
+        let each = (n as u64).saturating_mul(1 + u64::from(self.velocities));
+        moments
+            .saturating_add(listed)
+            .saturating_add(2)
+            .saturating_mul(each)
     }
 }
 
@@ -92,20 +113,19 @@ impl Scene {
         Self::parse(name, catalogue::text(name)?, Path::new("."))
     }
 
-    /// A scene from a file.
+    /// A scene from a file, or from standard input for `-`.
     ///
     /// # Errors
     ///
     /// A file that cannot be read, or whatever [`Scene::parse`] refuses, by the file's name.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
-        let bytes = std::fs::read(path).map_err(|error| SceneError::file(path, error))?;
-        let text = String::from_utf8(bytes)
-            .map_err(|_| SceneError::file(path, "not text; a scene in TOML would do"))?;
+        let text = read::text(path, "a scene in TOML", MOST_SCENE_BYTES)?;
         let name = path
             .file_stem()
             .map_or_else(String::new, |s| s.to_string_lossy().into_owned());
         let folder = path.parent().unwrap_or_else(|| Path::new("."));
-        Self::parse(&name, &text, folder).map_err(|error| SceneError::file(path, error))
+        Self::parse(&name, &text, folder)
+            .map_err(|error| SceneError::file(&read::called(path), error))
     }
 
     /// A scene from text; files that it names are looked for in `folder`.
@@ -115,7 +135,7 @@ impl Scene {
     /// Text that is no TOML, an unknown key (with the nearest known one), a missing key, a value
     /// that will not do: each by its key or line.
     pub fn parse(name: &str, text: &str, folder: &Path) -> Result<Self, SceneError> {
-        build::build(name, &file::parse(text)?, folder)
+        build::build(name, &toml_error::parse(text)?, folder)
     }
 
     /// Largest stable step of the scene's scheme, picture left out (errata §7); `None` if any is.
@@ -124,27 +144,64 @@ impl Scene {
         self.plan.scheme.step_limit(&self.snake)
     }
 
+    /// Whether the plan can be carried out: what [`Scene::run`] asks before the first step.
+    ///
+    /// # Errors
+    ///
+    /// A step beyond the limit unless the plan forces it, densities that the scheme cannot move,
+    /// more steps or a larger record than can be meant; by the key.
+    pub fn check(&self) -> Result<(), SceneError> {
+        let plan = &self.plan;
+        if plan.until.steps > MOST_STEPS {
+            let message = format!("at most {MOST_STEPS} would do, got {}", plan.until.steps);
+            return Err(SceneError::key("run.steps", message));
+        }
+        let n = self.snake.body().len();
+        let kept = plan.recording.kept(plan.until.steps, n);
+        if kept > MOST_KEPT {
+            let message = format!(
+                "would keep {kept} points; at most {MOST_KEPT}, so fewer moments, would do"
+            );
+            return Err(SceneError::key("record.every", message));
+        }
+        // before the limit, which is zero without mass
+        if plan.scheme != Scheme::GradientFlow
+            && let Some(node) = self
+                .snake
+                .body()
+                .mass
+                .to_vec(n)
+                .iter()
+                .position(|&m| m <= 0.0)
+        {
+            let message = format!(
+                "{} needs mass above 0 at every node, node {node} has none; gradient-flow does not",
+                plan.scheme.name()
+            );
+            return Err(SceneError::key("densities.mass", message));
+        }
+        plan.scheme
+            .check(&self.snake, plan.dt, plan.force)
+            .map_err(|e| refused(&e))
+    }
+
     /// Run it from the start, showing every step to `observer`.
     ///
     /// # Errors
     ///
-    /// A step that the scheme refuses, or one beyond the limit unless the plan forces it; a start
-    /// at which a force cannot be evaluated.
+    /// Whatever [`Scene::check`] refuses; a start at which a force cannot be evaluated.
     pub fn run(
         &mut self,
         observer: &mut dyn FnMut(&State) -> ControlFlow<()>,
     ) -> Result<Record, SceneError> {
+        self.check()?;
         let plan = self.plan.clone();
-        let refuse = |error: SchemeError| SceneError::Step(error.to_string());
-        plan.scheme
-            .check(&self.snake, plan.dt, plan.force)
-            .map_err(refuse)?;
         let mut state = self.start.clone();
         let mut stepper = plan
             .scheme
             .start(&mut self.snake, &state, plan.dt, plan.start_rule)
-            .map_err(refuse)?;
-        let keep = &plan.recording;
+            .map_err(|e| refused(&e))?;
+        let keep = &plan.recording.sorted();
         let mut ledger = if keep.energies {
             let begun = Ledger::begin(&mut self.snake, &state);
             Some(begun.map_err(|fault| SceneError::key("snake.start", fault))?)
@@ -184,4 +241,18 @@ impl Scene {
         record.outcome = outcome;
         Ok(record)
     }
+}
+
+/// An error of the scheme, under the key it belongs to.
+fn refused(error: &SchemeError) -> SceneError {
+    let key = match error {
+        SchemeError::BadStep { .. }
+        | SchemeError::AboveLimit { .. }
+        | SchemeError::BeyondNumbers { .. } => return SceneError::Step(error.to_string()),
+        SchemeError::BadMass { .. } => "densities.mass",
+        SchemeError::BadDamping { .. } => "densities.damping",
+        SchemeError::BadStart { .. } => "snake.start",
+        _ => "run.scheme",
+    };
+    SceneError::key(key, error)
 }

@@ -6,7 +6,7 @@ use field::{EdgeForce, ForceField, ReportStages, Smoothing};
 use glam::DVec2;
 use image::RgbImage;
 
-use crate::{Picture, SceneError, paint, ready_folder};
+use crate::{Picture, SceneError, build, paint, ready_folder};
 
 /// The stages of a picture's force, each a picture with a name that says what it is.
 ///
@@ -17,7 +17,7 @@ pub fn stages(
     picture: &Picture,
     smoothing: Smoothing,
 ) -> Result<Vec<(String, RgbImage)>, SceneError> {
-    let refuse = |error: field::FieldError| SceneError::key("--sigma", error);
+    let refuse = |error: field::FieldError| SceneError::key("field", error);
     let mut all = vec![("0-picture".to_owned(), paint::grey(&picture.levels))];
     let rule = EdgeForce {
         smoothing,
@@ -70,7 +70,12 @@ fn push_force(
 fn arrows(picture: &Picture, force: &ForceField) -> RgbImage {
     let (width, height) = picture.size();
     let pitch = (width.max(height) / 48).max(4);
-    let zoom = if width.max(height) < 300 { 3.0 } else { 2.0 };
+    let zoom = match width.max(height) {
+        ..300 => 3.0,
+        300..4000 => 2.0,
+        // enough pixels to see an arrow as it is
+        _ => 1.0,
+    };
     let mut canvas = paint::enlarged(&picture.display, zoom);
     let largest = force.largest().max(f64::MIN_POSITIVE);
     for row in (pitch / 2..height).step_by(pitch) {
@@ -97,6 +102,14 @@ fn arrows(picture: &Picture, force: &ForceField) -> RgbImage {
     canvas
 }
 
+/// The flag of `snake field` that says how to smooth.
+const fn flag(smoothing: Smoothing) -> &'static str {
+    match smoothing {
+        Smoothing::Binomial(_) => "--passes",
+        Smoothing::Gaussian(_) => "--sigma",
+    }
+}
+
 /// Write every stage into `folder` as `NAME.png`; returns the files.
 ///
 /// # Errors
@@ -107,6 +120,7 @@ pub fn write_stages(
     smoothing: Smoothing,
     folder: &Path,
 ) -> Result<Vec<PathBuf>, SceneError> {
+    let smoothing = build::smoothing(flag(smoothing), smoothing, picture)?;
     ready_folder(folder)?;
     let mut files = Vec::new();
     for (name, image) in stages(picture, smoothing)? {

@@ -3,54 +3,18 @@
 //! Every key that may be left out is an `Option` or has its default here; what the values mean is
 //! decided in `build`. `docs/formats.md` explains the format by example.
 
-use serde::{Deserialize, Deserializer};
+mod forms;
 
-use crate::SceneError;
-use crate::error::nearest;
+use serde::Deserialize;
 
-/// A number, one number a node, or points along the curve.
-#[derive(Debug, Clone)]
-pub(crate) enum ProfileText {
-    Uniform(f64),
-    PerNode(Vec<f64>),
-    Along(Along),
-}
-
-impl<'de> Deserialize<'de> for ProfileText {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        match toml::Value::deserialize(deserializer)? {
-            toml::Value::Float(value) => Ok(Self::Uniform(value)),
-            toml::Value::Array(values) => inner(toml::Value::Array(values)).map(Self::PerNode),
-            toml::Value::Table(table) => inner(toml::Value::Table(table)).map(Self::Along),
-            // as serde reads any other number
-            toml::Value::Integer(value) => inner(toml::Value::Integer(value)).map(Self::Uniform),
-            other => Err(wrong(
-                "a number, one number a node, or { along = [[s, value], …] }",
-                &other,
-            )),
-        }
-    }
-}
-
-/// What is inside a value that may have several forms.
-fn inner<T: for<'a> Deserialize<'a>, E: serde::de::Error>(value: toml::Value) -> Result<T, E> {
-    T::deserialize(value).map_err(|error| E::custom(error.message()))
-}
-
-fn wrong<E: serde::de::Error>(wanted: &str, given: &toml::Value) -> E {
-    E::custom(format!("expected {wanted}, got {given}"))
-}
-
-/// `{ along = [[s, value], …] }`: straight between points, `s` from 0 (first node) to 1 (last).
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Along {
-    pub along: Vec<[f64; 2]>,
-}
+pub(crate) use forms::{ProfileText, RulesText, TopologyText};
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct SceneText {
+    /// Version of the format; 1 when not given.
+    #[serde(default)]
+    pub version: Option<u64>,
     pub title: String,
     #[serde(default)]
     pub report: Option<String>,
@@ -82,32 +46,6 @@ pub(crate) struct SceneText {
 pub(crate) enum Rule {
     Report,
     Corrected,
-}
-
-#[derive(Debug, Clone)]
-pub(crate) enum RulesText {
-    All(Rule),
-    Each(Box<EachRule>),
-}
-
-impl<'de> Deserialize<'de> for RulesText {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = toml::Value::deserialize(deserializer)?;
-        match value {
-            toml::Value::String(_) => inner(value).map(Self::All),
-            toml::Value::Table(_) => inner(value).map(|each| Self::Each(Box::new(each))),
-            other => Err(wrong(
-                "\"report\", \"corrected\" or a table of rules",
-                &other,
-            )),
-        }
-    }
-}
-
-impl Default for RulesText {
-    fn default() -> Self {
-        Self::All(Rule::Corrected)
-    }
 }
 
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -253,26 +191,6 @@ pub(crate) enum EndText {
 pub(crate) enum OpenClosed {
     Open,
     Closed,
-}
-
-#[derive(Debug, Clone)]
-pub(crate) enum TopologyText {
-    Word(OpenClosed),
-    Ends(EndsText),
-}
-
-impl<'de> Deserialize<'de> for TopologyText {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = toml::Value::deserialize(deserializer)?;
-        match value {
-            toml::Value::String(_) => inner(value).map(Self::Word),
-            toml::Value::Table(_) => inner(value).map(Self::Ends),
-            other => Err(wrong(
-                "\"open\", \"closed\" or { head = …, tail = … }",
-                &other,
-            )),
-        }
-    }
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -424,42 +342,4 @@ pub(crate) struct RecordText {
     pub velocities: bool,
     #[serde(default)]
     pub energies: bool,
-}
-
-/// Read the text of a scene.
-pub(crate) fn parse(text: &str) -> Result<SceneText, SceneError> {
-    toml::from_str(text).map_err(|error| {
-        let line = error.span().map_or(1, |span| {
-            text.get(..span.start)
-                .map_or(1, |before| before.matches('\n').count() + 1)
-        });
-        SceneError::Text {
-            line,
-            message: helpful(error.message()),
-        }
-    })
-}
-
-/// A message of serde's, with the nearest known key where it names an unknown one.
-fn helpful(message: &str) -> String {
-    let mut quoted = message.split('`').skip(1).step_by(2);
-    let first_line = message.lines().next().unwrap_or(message);
-    let unknown = message.starts_with("unknown field") || message.starts_with("unknown variant");
-    match (unknown, quoted.next()) {
-        (true, Some(word)) => {
-            let known: Vec<&str> = quoted.collect();
-            if known.is_empty() {
-                return first_line.to_owned();
-            }
-            let nearest = nearest(word, known.iter().copied());
-            let what = if message.starts_with("unknown field") {
-                "key"
-            } else {
-                "word"
-            };
-            let known = known.join(", ");
-            format!("unknown {what} \"{word}\"; did you mean \"{nearest}\"? (known: {known})")
-        }
-        _ => first_line.to_owned(),
-    }
 }

@@ -1,0 +1,158 @@
+//! From the text of a scene to the scene: what the words mean, and every refusal by its key.
+
+mod body;
+pub(crate) mod number;
+mod plan;
+mod shape;
+mod world;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::DVec2;
+use snake::{Snake, SnakeError};
+
+pub(crate) use world::{outside, smoothing};
+
+use crate::file::{PictureText, Rule, RulesText, SceneText, UpDown, ViewText};
+use crate::scene::{Scene, View};
+use crate::{Picture, SceneError};
+
+/// Whose rules each part follows, after `all` has been filled in.
+#[derive(Debug, Clone, Copy)]
+struct Rules {
+    frame: Rule,
+    ends: Rule,
+    field: Rule,
+    sampling: Rule,
+    spline: Rule,
+    spacing: Rule,
+    start: Rule,
+    border: Rule,
+    clock: Rule,
+    scheme: Rule,
+}
+
+impl Rules {
+    fn of(text: &RulesText) -> Self {
+        let (all, each) = match text {
+            RulesText::All(rule) => (*rule, Box::default()),
+            RulesText::Each(each) => (each.all.unwrap_or(Rule::Corrected), each.clone()),
+        };
+        Self {
+            frame: each.frame.unwrap_or(all),
+            ends: each.ends.unwrap_or(all),
+            field: each.field.unwrap_or(all),
+            sampling: each.sampling.unwrap_or(all),
+            spline: each.spline.unwrap_or(all),
+            spacing: each.spacing.unwrap_or(all),
+            start: each.start.unwrap_or(all),
+            border: each.border.unwrap_or(all),
+            clock: each.clock.unwrap_or(all),
+            scheme: all,
+        }
+    }
+}
+
+/// The version of the format that this program reads.
+const VERSION: u64 = 1;
+
+/// Build the scene of `text`; files it names are looked for in `folder`.
+///
+/// Everything that costs nothing is checked before the picture is turned into a field.
+pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene, SceneError> {
+    if text.version.is_some_and(|version| version != VERSION) {
+        let message = format!(
+            "this program reads {VERSION}, got {}",
+            text.version.unwrap_or(0)
+        );
+        return Err(SceneError::key("version", message));
+    }
+    let rules = Rules::of(&text.rules);
+    let plan = plan::plan(text, rules)?;
+    let view = view(&text.view)?;
+    let body = body::body(text, rules, folder)?;
+    let start = body::start(text, &body, rules, folder)?;
+    let picture = text
+        .picture
+        .as_ref()
+        .map(|p| picture(p, folder))
+        .transpose()?;
+    if let Some(picture) = &picture {
+        world::inside(&start, picture, rules)?;
+    }
+    let field = picture
+        .as_ref()
+        .map(|p| world::force_field(&text.field, rules, p))
+        .transpose()?
+        .map(Arc::new);
+    let world = world::world(text, rules, picture.as_ref(), field.clone(), body.len())?;
+    let snake = Snake::new(body, world).map_err(|e| refused("snake", &e))?;
+    Ok(Scene {
+        name: name.to_owned(),
+        title: text.title.clone(),
+        report: text.report.clone(),
+        note: text.note.clone(),
+        view,
+        picture: picture.map(Arc::new),
+        field,
+        snake,
+        start,
+        plan,
+    })
+}
+
+fn picture(text: &PictureText, folder: &Path) -> Result<Picture, SceneError> {
+    match text {
+        PictureText::File(file) => Picture::load(&folder.join(file)),
+        PictureText::Shipped(name) => Picture::shipped(name),
+        PictureText::Drawn(drawn) => Picture::drawn(drawn),
+    }
+}
+
+fn view(text: &ViewText) -> Result<View, SceneError> {
+    let window = match text.window {
+        None => None,
+        Some([x0, y0, x1, y1]) => {
+            let low = number::place("view.window", [x0, y0])?;
+            let high = number::place("view.window", [x1, y1])?;
+            if low.cmpge(high).any() {
+                let message = format!(
+                    "[x0, y0, x1, y1] with x0 < x1 and y0 < y1 would do, got [{x0}, {y0}, {x1}, {y1}]"
+                );
+                return Err(SceneError::key("view.window", message));
+            }
+            Some((low, high))
+        }
+    };
+    let y_up = text.y == Some(UpDown::Up);
+    Ok(View { y_up, window })
+}
+
+/// An error of the body or the world, under the key it belongs to; `otherwise` if it has none.
+fn refused(otherwise: &str, error: &SnakeError) -> SceneError {
+    let key = match error {
+        SnakeError::NoMass => "densities.mass",
+        SnakeError::NoNormal { .. } => "world.wall",
+        SnakeError::Elastic(elastic::ElasticError::TooFewNodes { .. }) => "snake.nodes",
+        SnakeError::Elastic(elastic::ElasticError::TooStiff { .. }) => "material",
+        SnakeError::Elastic(elastic::ElasticError::BadParameter { name, .. })
+        | SnakeError::Elastic(elastic::ElasticError::WrongLength { name, .. })
+        | SnakeError::BadNumber { name, .. } => match *name {
+            "mass" => "densities.mass",
+            "damping" => "densities.damping",
+            "tether" => "material.tether",
+            "tension" => "material.tension",
+            "rigidity" => "material.rigidity",
+            "gravity" => "world.gravity",
+            "image weight" => "field.weight",
+            _ => otherwise,
+        },
+        _ => otherwise,
+    };
+    SceneError::key(key, error)
+}
+
+fn points(list: &[[f64; 2]]) -> Vec<DVec2> {
+    list.iter().map(|&p| DVec2::from_array(p)).collect()
+}

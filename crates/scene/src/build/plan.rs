@@ -1,0 +1,106 @@
+//! The plan: scheme, step, when to stop, what to keep.
+
+use integrator::{Scheme, Start};
+use snake::{Rest, Until};
+
+use super::{Rules, number};
+use crate::SceneError;
+use crate::file::{RecordText, RestText, Rule, RunText, SceneText};
+use crate::limits::MOST_STEPS;
+use crate::scene::{Plan, Recording};
+
+pub(super) fn plan(text: &SceneText, rules: Rules) -> Result<Plan, SceneError> {
+    let run = &text.run;
+    let scheme = match &run.scheme {
+        Some(name) => name
+            .parse::<Scheme>()
+            .map_err(|e| SceneError::key("run.scheme", e))?,
+        None if rules.scheme == Rule::Report => Scheme::Report,
+        None => Scheme::Leapfrog,
+    };
+    let dt = number::above_zero("run.dt", run.dt)?;
+    let until = Until {
+        steps: steps(run, dt, rules)?,
+        rest: run.rest.as_ref().map(rest).transpose()?,
+    };
+    let start_rule = match rules.start {
+        Rule::Report => Start::FirstOrder,
+        Rule::Corrected => Start::SecondOrder,
+    };
+    Ok(Plan {
+        scheme,
+        dt,
+        until,
+        start_rule,
+        force: run.force,
+        recording: recording(&text.record)?,
+    })
+}
+
+fn steps(run: &RunText, dt: f64, rules: Rules) -> Result<u64, SceneError> {
+    let most = MOST_STEPS as f64;
+    match (run.steps, run.time) {
+        (Some(steps), None) if steps <= MOST_STEPS => Ok(steps),
+        (Some(steps), None) => {
+            let message = format!("at most {MOST_STEPS} would do, got {steps}");
+            Err(SceneError::key("run.steps", message))
+        }
+        (None, Some(time)) if time.is_finite() && time >= 0.0 && time / dt < most => {
+            match rules.clock {
+                Rule::Report => integrator::report_steps(time, dt).ok_or_else(|| {
+                    SceneError::key("run.time", "takes more steps than can be counted")
+                }),
+                Rule::Corrected => Ok(steps_in(time, dt)),
+            }
+        }
+        (None, Some(time)) => {
+            let message =
+                format!("must be finite, at least 0 and less than {MOST_STEPS} steps, got {time}");
+            Err(SceneError::key("run.time", message))
+        }
+        (None, None) => Err(SceneError::key(
+            "run",
+            "never ends; one of the keys steps and time would do",
+        )),
+        (Some(_), Some(_)) => Err(SceneError::key(
+            "run",
+            "has both steps and time; one of them would do",
+        )),
+    }
+}
+
+fn rest(text: &RestText) -> Result<Rest, SceneError> {
+    if text.every == 0 {
+        return Err(SceneError::key(
+            "run.rest.every",
+            "must be at least 1, got 0",
+        ));
+    }
+    Ok(Rest {
+        speed: number::above_zero("run.rest.speed", text.speed)?,
+        force: number::above_zero("run.rest.force", text.force)?,
+        every: text.every,
+    })
+}
+
+fn recording(text: &RecordText) -> Result<Recording, SceneError> {
+    if text.every == Some(0) {
+        return Err(SceneError::key("record.every", "must be at least 1, got 0"));
+    }
+    Ok(Recording {
+        every: text.every,
+        steps: text.steps.clone().unwrap_or_default(),
+        velocities: text.velocities,
+        energies: text.energies,
+    })
+}
+
+/// Steps that fill `time`: the nearest whole number, not an accumulated one (D20).
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the caller has checked that the quotient is from 0 to 1e9"
+)]
+fn steps_in(time: f64, dt: f64) -> u64 {
+    (time / dt).round() as u64
+}

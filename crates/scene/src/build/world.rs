@@ -1,0 +1,196 @@
+//! The world: the picture's force, gravity, walls, and the borders of the picture.
+
+use std::sync::Arc;
+
+use elastic::Profile;
+use field::{EdgeForce, FieldError, ForceField, Smoothing};
+use glam::DVec2;
+use integrator::State;
+use snake::{External, ImageForce, Sampling, SnakeError, Wall, WallLaw, World};
+
+use super::body::profile;
+use super::{Rules, number};
+use crate::file::{BorderText, FieldText, LawText, Rule, SceneText, WallText};
+use crate::limits::MOST_SMOOTHING;
+use crate::{Picture, SceneError};
+
+/// Refuse a smoothing that would take minutes on a picture of this size, or that makes no sense.
+pub(crate) fn smoothing(
+    key: &str,
+    smoothing: Smoothing,
+    picture: &Picture,
+) -> Result<Smoothing, SceneError> {
+    smoothing.validate().map_err(|e| SceneError::key(key, e))?;
+    let (width, height) = picture.size();
+    let pixels = (width * height) as f64;
+    // a Gaussian is cut at 8.6 σ on both sides
+    let (value, taps) = match smoothing {
+        Smoothing::Binomial(passes) => (f64::from(passes), 1.0),
+        Smoothing::Gaussian(sigma) => (sigma, 17.2),
+    };
+    if pixels * value * taps <= MOST_SMOOTHING {
+        return Ok(smoothing);
+    }
+    let most = (MOST_SMOOTHING / (pixels * taps)).floor();
+    let message =
+        format!("{value} on {width}×{height} pixels takes too long; at most {most} would do");
+    Err(SceneError::key(key, message))
+}
+
+pub(super) fn force_field(
+    f: &FieldText,
+    rules: Rules,
+    picture: &Picture,
+) -> Result<ForceField, SceneError> {
+    let refuse = |error: FieldError| SceneError::key("field", error);
+    let scale = |otherwise: f64| number::above_zero("field.scale", f.scale.unwrap_or(otherwise));
+    let gain = |otherwise: f64| number::above_zero("field.gain", f.gain.unwrap_or(otherwise));
+    if f.passes.is_some() && f.sigma.is_some() {
+        let message = "give either passes or sigma, not both";
+        return Err(SceneError::key("field.sigma", message));
+    }
+    let passes = f.passes.unwrap_or(field::REPORT_PASSES);
+    let binomial = Smoothing::Binomial(passes);
+    match rules.field {
+        Rule::Report => {
+            if f.sigma.is_some() {
+                let message = "the report's field smooths by passes; those would do";
+                return Err(SceneError::key("field.sigma", message));
+            }
+            smoothing("field.passes", binomial, picture)?;
+            let (scale, gain) = (scale(field::REPORT_SCALE)?, gain(field::REPORT_GAIN)?);
+            field::report_force(&picture.levels, passes, scale, gain).map_err(refuse)
+        }
+        Rule::Corrected => {
+            // so that an edge pulls as hard as under the report's rules
+            let usual = EdgeForce::as_strong_as_the_report().gain;
+            let smoothing = match f.sigma {
+                Some(sigma) => smoothing("field.sigma", Smoothing::Gaussian(sigma), picture)?,
+                None => smoothing("field.passes", binomial, picture)?,
+            };
+            let gain = gain(usual)? * scale(1.0)?;
+            field::edge_force(&picture.levels, &EdgeForce { smoothing, gain }).map_err(refuse)
+        }
+    }
+}
+
+pub(super) fn world(
+    text: &SceneText,
+    rules: Rules,
+    picture: Option<&Picture>,
+    field: Option<Arc<ForceField>>,
+    n: usize,
+) -> Result<World, SceneError> {
+    let mut world = World::default();
+    if let Some(g) = text.world.gravity {
+        world = world.with_gravity(number::place("world.gravity", g)?);
+    }
+    if let Some(field) = field {
+        let sampling = match rules.sampling {
+            Rule::Report => Sampling::OneAxis,
+            Rule::Corrected => Sampling::Bilinear,
+        };
+        let weight = match &text.field.weight {
+            Some(weight) => profile("field.weight", weight, n)?,
+            None => Profile::Uniform(1.0),
+        };
+        world.externals.push(External::Image(ImageForce {
+            field,
+            sampling,
+            weight,
+        }));
+    }
+    for (i, text) in text.world.wall.iter().enumerate() {
+        world.walls.push(wall(&format!("world.wall {i}"), text)?);
+    }
+    if let Some(picture) = picture {
+        for (point, normal, law) in borders(text.world.border, rules, picture) {
+            let wall = Wall::new(point, normal, law);
+            world
+                .walls
+                .push(wall.map_err(|e| SceneError::key("world.border", e))?);
+        }
+    }
+    Ok(world)
+}
+
+fn wall(key: &str, text: &WallText) -> Result<Wall, SceneError> {
+    let law = match &text.law {
+        LawText::Clamp => WallLaw::Clamp,
+        LawText::Penalty(p) => WallLaw::Penalty {
+            stiffness: p.stiffness,
+            damping: p.damping,
+        },
+        LawText::Impact(i) => WallLaw::Impact {
+            restitution: i.restitution,
+            friction: i.friction,
+        },
+    };
+    let point = number::place(&format!("{key}: point"), text.point)?;
+    let normal = number::place(&format!("{key}: normal"), text.normal)?;
+    Wall::new(point, normal, law).map_err(|e: SnakeError| SceneError::key(key, e))
+}
+
+/// The walls that the borders of a picture are.
+fn borders(
+    border: Option<BorderText>,
+    rules: Rules,
+    picture: &Picture,
+) -> Vec<(DVec2, DVec2, WallLaw)> {
+    let (width, height) = picture.size();
+    let far = DVec2::new((width - 1) as f64, (height - 1) as f64);
+    let border = border.unwrap_or(match rules.border {
+        Rule::Report => BorderText::Clamp,
+        Rule::Corrected => BorderText::Stop,
+    });
+    let (clamp, stop) = (
+        WallLaw::Clamp,
+        WallLaw::Impact {
+            restitution: 0.0,
+            friction: 0.0,
+        },
+    );
+    match border {
+        BorderText::None => Vec::new(),
+        BorderText::Clamp => vec![(DVec2::ZERO, DVec2::Y, clamp), (far, DVec2::NEG_Y, clamp)],
+        BorderText::Stop => vec![
+            (DVec2::ZERO, DVec2::Y, stop),
+            (far, DVec2::NEG_Y, stop),
+            (DVec2::ZERO, DVec2::X, stop),
+            (far, DVec2::NEG_X, stop),
+        ],
+    }
+}
+
+/// Refuse a start of which a node is off the picture. The report's program lets a node begin up to
+/// a pixel above it, where its clamp catches it (D54, D57).
+pub(super) fn inside(start: &State, picture: &Picture, rules: Rules) -> Result<(), SceneError> {
+    let margin = if rules.border == Rule::Report {
+        1.0
+    } else {
+        0.5
+    };
+    outside(&start.x, picture, margin).map_or(Ok(()), |message| {
+        Err(SceneError::key("snake.start", format!("node {message}")))
+    })
+}
+
+/// What to say of the first place farther than `margin` off a picture's pixel centers, if any.
+///
+/// Written so that a place that is none is outside too.
+pub(crate) fn outside(places: &[DVec2], picture: &Picture, margin: f64) -> Option<String> {
+    let (width, height) = picture.size();
+    let (least, most) = (-margin, DVec2::new(width as f64, height as f64) - margin);
+    let i = places
+        .iter()
+        .position(|p| !(p.cmpge(DVec2::splat(least)).all() && p.cmple(most).all()))?;
+    let p = places[i];
+    Some(format!(
+        "{i} at ({:.2}, {:.2}) is outside the picture of {width}×{height} pixels; x from 0 to {} \
+         and y from 0 to {} would do",
+        p.x,
+        p.y,
+        width - 1,
+        height - 1
+    ))
+}

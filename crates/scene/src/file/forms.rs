@@ -1,0 +1,93 @@
+//! Values that may be written in more than one form.
+//!
+//! Each looks at what is there before it decides, so that a message is about the form that was meant.
+
+use serde::{Deserialize, Deserializer};
+
+use super::{EachRule, EndsText, OpenClosed, Rule};
+
+/// A number, one number a node, or points along the curve.
+#[derive(Debug, Clone)]
+pub(crate) enum ProfileText {
+    Uniform(f64),
+    PerNode(Vec<f64>),
+    Along(Along),
+}
+
+impl<'de> Deserialize<'de> for ProfileText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match toml::Value::deserialize(deserializer)? {
+            toml::Value::Float(value) => Ok(Self::Uniform(value)),
+            toml::Value::Array(values) => inner(toml::Value::Array(values)).map(Self::PerNode),
+            toml::Value::Table(table) => inner(toml::Value::Table(table)).map(Self::Along),
+            // as serde reads any other number
+            toml::Value::Integer(value) => inner(toml::Value::Integer(value)).map(Self::Uniform),
+            other => Err(wrong(
+                "a number, one number a node, or { along = [[s, value], …] }",
+                &other,
+            )),
+        }
+    }
+}
+
+/// What is inside a value that may have several forms.
+fn inner<T: for<'a> Deserialize<'a>, E: serde::de::Error>(value: toml::Value) -> Result<T, E> {
+    T::deserialize(value).map_err(|error| E::custom(error.message()))
+}
+
+fn wrong<E: serde::de::Error>(wanted: &str, given: &toml::Value) -> E {
+    E::custom(format!("expected {wanted}, got {given}"))
+}
+
+/// `{ along = [[s, value], …] }`: straight between points, `s` from 0 (first node) to 1 (last).
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Along {
+    pub along: Vec<[f64; 2]>,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum RulesText {
+    All(Rule),
+    Each(Box<EachRule>),
+}
+
+impl<'de> Deserialize<'de> for RulesText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = toml::Value::deserialize(deserializer)?;
+        match value {
+            toml::Value::String(_) => inner(value).map(Self::All),
+            toml::Value::Table(_) => inner(value).map(|each| Self::Each(Box::new(each))),
+            other => Err(wrong(
+                "\"report\", \"corrected\" or a table of rules",
+                &other,
+            )),
+        }
+    }
+}
+
+impl Default for RulesText {
+    fn default() -> Self {
+        Self::All(Rule::Corrected)
+    }
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum TopologyText {
+    Word(OpenClosed),
+    Ends(EndsText),
+}
+
+impl<'de> Deserialize<'de> for TopologyText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = toml::Value::deserialize(deserializer)?;
+        match value {
+            toml::Value::String(_) => inner(value).map(Self::Word),
+            toml::Value::Table(_) => inner(value).map(Self::Ends),
+            other => Err(wrong(
+                "\"open\", \"closed\" or { head = …, tail = … }",
+                &other,
+            )),
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! How much a text or a file may ask for, in one place, each with its reason.
+//!
+//! A program that is handed a file by a stranger must not be talked into hours or gigabytes. Every
+//! bound is far above what the work needs, and the message of a refusal says what it is.
+
+/// Nodes a snake may have, and points a contour: more than twenty for every pixel of the outline of
+/// the largest picture.
+pub(crate) const MOST_NODES: usize = 1 << 20;
+
+/// Coordinates go so far from zero, either way: a thousandth of where a run counts as blown up, and
+/// far below where the square of a length overflows.
+pub(crate) const FARTHEST: f64 = 1e9;
+
+/// Pixels a picture may have, 11585 × 11585: all stages of a force together hold about a hundred
+/// bytes a pixel, so some 13 GB.
+pub(crate) const MOST_PIXELS: u64 = 1 << 27;
+
+/// Bytes a pixel may take in a file or a decoder: four channels of floats.
+pub(crate) const MOST_PIXEL_BYTES: u64 = 16;
+
+/// Pixels a drawn picture may have, 4096 × 4096: drawn in about a second.
+pub(crate) const MOST_DRAWN: u64 = 1 << 24;
+
+/// Pixels along the shorter side of a picture: its edges are found by masks of 3 × 3.
+pub(crate) const LEAST_SIDE: usize = 3;
+
+/// Pixels times taps of a smoothing along one axis: about half a minute of work.
+pub(crate) const MOST_SMOOTHING: f64 = 1.7e10;
+
+/// Steps of a run: days of work for the smallest snake.
+pub(crate) const MOST_STEPS: u64 = 1_000_000_000;
+
+/// Points and velocities a record may keep: 2 GiB.
+pub(crate) const MOST_KEPT: u64 = 1 << 27;
+
+/// Bytes of a scene's text, enough to write every node of the largest snake out.
+pub(crate) const MOST_SCENE_BYTES: u64 = 64 << 20;
+
+/// Bytes of a contour file, enough for the most points at 17 digits with columns to spare.
+pub(crate) const MOST_CONTOUR_BYTES: u64 = 256 << 20;

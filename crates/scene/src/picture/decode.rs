@@ -1,0 +1,162 @@
+//! From the bytes of a picture file to grey levels.
+
+use std::fs::File;
+use std::io::{Cursor, Read as _};
+use std::path::Path;
+
+use field::Grid;
+use image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader, Limits};
+use tiff::decoder::{Decoder, DecodingResult};
+
+use super::Picture;
+use crate::error::clip;
+use crate::limits::{LEAST_SIDE, MOST_PIXEL_BYTES, MOST_PIXELS};
+
+/// What to say instead of every other kind of file.
+const WANTED: &str = "a PNG, JPEG, TIFF, PGM or PPM picture";
+
+/// Bytes that tell what a file is.
+const HEAD: u64 = 64;
+
+/// Read a picture file. Its head is looked at first, so that an endless file that is no picture is
+/// not read to its end.
+pub(super) fn load(path: &Path) -> Result<Picture, String> {
+    let unread = |e: std::io::Error| format!("cannot be read: {e}; {WANTED} would do");
+    let mut file = File::open(path).map_err(unread)?;
+    let mut bytes = Vec::new();
+    let mut head = file.by_ref().take(HEAD);
+    head.read_to_end(&mut bytes).map_err(unread)?;
+    format(&bytes)?;
+    let most = MOST_PIXELS * MOST_PIXEL_BYTES;
+    file.take(most).read_to_end(&mut bytes).map_err(unread)?;
+    decode(&bytes, MOST_PIXELS)
+}
+
+/// What a file is by its first bytes.
+fn format(head: &[u8]) -> Result<ImageFormat, String> {
+    if head.is_empty() {
+        return Err(format!("the file is empty; {WANTED} would do"));
+    }
+    match image::guess_format(head) {
+        Ok(
+            known @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::Tiff | ImageFormat::Pnm),
+        ) => Ok(known),
+        _ => Err(format!(
+            "not a picture this program reads; {WANTED} would do"
+        )),
+    }
+}
+
+/// A picture of at most `most` pixels from the bytes of a file.
+pub(super) fn decode(bytes: &[u8], most: u64) -> Result<Picture, String> {
+    let format = format(bytes)?;
+    if format == ImageFormat::Tiff
+        && let Some(picture) = grey_floats(bytes, most)?
+    {
+        return Ok(picture);
+    }
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(most.saturating_mul(MOST_PIXEL_BYTES).max(1 << 20));
+    reader.limits(limits);
+    let decoder = reader.into_decoder().map_err(broken)?;
+    check_size(decoder.dimensions(), most)?;
+    from_image(&DynamicImage::from_decoder(decoder).map_err(broken)?)
+}
+
+/// Refuse a picture too small to hold an edge, or too large to hold in memory.
+fn check_size((width, height): (u32, u32), most: u64) -> Result<(), String> {
+    let pixels = u64::from(width) * u64::from(height);
+    if u64::from(width.min(height)) < LEAST_SIDE as u64 {
+        return Err(format!(
+            "the picture is {width}×{height}; at least {LEAST_SIDE}×{LEAST_SIDE} pixels would do"
+        ));
+    }
+    if pixels > most {
+        return Err(format!(
+            "the picture is {width}×{height}, {pixels} pixels; at most {most} would do"
+        ));
+    }
+    Ok(())
+}
+
+/// A TIFF of one float a pixel, which the general reader does not know; None if it is another one.
+fn grey_floats(bytes: &[u8], most: u64) -> Result<Option<Picture>, String> {
+    let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(broken)?;
+    if !matches!(decoder.colortype(), Ok(tiff::ColorType::Gray(32 | 64))) {
+        return Ok(None);
+    }
+    let (width, height) = decoder.dimensions().map_err(broken)?;
+    check_size((width, height), most)?;
+    let mut limits = tiff::decoder::Limits::default();
+    let bytes = most.saturating_mul(MOST_PIXEL_BYTES).max(1 << 20);
+    limits.decoding_buffer_size = usize::try_from(bytes).unwrap_or(usize::MAX);
+    limits.intermediate_buffer_size = limits.decoding_buffer_size;
+    let levels: Vec<f64> = match decoder.with_limits(limits).read_image().map_err(broken)? {
+        DecodingResult::F32(list) => list.iter().map(|&v| f64::from(v) * 255.0).collect(),
+        DecodingResult::F64(list) => list.iter().map(|&v| v * 255.0).collect(),
+        _ => {
+            return Err(
+                "its pixels are whole numbers of 32 bits or more; 8 or 16 bits or floats \
+                        would do"
+                    .to_owned(),
+            );
+        }
+    };
+    let levels = grid(width as usize, height as usize, levels)?;
+    Ok(Some(Picture::from_levels(levels)))
+}
+
+/// Grey levels as a grid, all of them finite.
+fn grid(width: usize, height: usize, levels: Vec<f64>) -> Result<Grid, String> {
+    if let Some(at) = levels.iter().position(|v| !v.is_finite()) {
+        let (x, y, level) = (at % width.max(1), at / width.max(1), levels[at]);
+        return Err(format!(
+            "pixel ({x}, {y}) is {level}; finite numbers would do"
+        ));
+    }
+    Grid::from_shape_vec((height, width), levels).map_err(broken)
+}
+
+fn broken(error: impl std::fmt::Display) -> String {
+    let error = clip(&error.to_string());
+    format!("the picture cannot be decoded: {error}; a whole one would do")
+}
+
+fn from_image(image: &DynamicImage) -> Result<Picture, String> {
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    // grey in three channels is that grey exactly, as in one
+    let luma = |[r, g, b]: [f64; 3]| {
+        if r.to_bits() == g.to_bits() && g.to_bits() == b.to_bits() {
+            r
+        } else {
+            0.299 * r + 0.587 * g + 0.114 * b
+        }
+    };
+    let levels: Vec<f64> = match image {
+        DynamicImage::ImageLuma8(i) => i.as_raw().iter().map(|&v| f64::from(v)).collect(),
+        DynamicImage::ImageLuma16(i) => i.as_raw().iter().map(|&v| f64::from(v) / 257.0).collect(),
+        DynamicImage::ImageLumaA8(i) => i.pixels().map(|p| f64::from(p.0[0])).collect(),
+        DynamicImage::ImageLumaA16(i) => i.pixels().map(|p| f64::from(p.0[0]) / 257.0).collect(),
+        DynamicImage::ImageRgb16(_) | DynamicImage::ImageRgba16(_) => image
+            .to_rgb16()
+            .pixels()
+            .map(|p| luma(p.0.map(|v| f64::from(v) / 257.0)))
+            .collect(),
+        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => image
+            .to_rgb32f()
+            .pixels()
+            .map(|p| luma(p.0.map(|v| f64::from(v) * 255.0)))
+            .collect(),
+        _ => image
+            .to_rgb8()
+            .pixels()
+            .map(|p| luma(p.0.map(f64::from)))
+            .collect(),
+    };
+    let levels = grid(width, height, levels)?;
+    Ok(Picture {
+        display: image.to_rgb8(),
+        levels,
+    })
+}

@@ -1,0 +1,47 @@
+//! TOML's own messages, turned into one line that names the place and what would do.
+
+use crate::SceneError;
+use crate::error::{clip, nearest};
+use crate::file::SceneText;
+
+/// Read the text of a scene.
+pub(crate) fn parse(text: &str) -> Result<SceneText, SceneError> {
+    toml::from_str(text).map_err(|error| {
+        let start = error.span().map_or(0, |span| span.start.min(text.len()));
+        let before = text.get(..start).unwrap_or("");
+        let line = before.matches('\n').count();
+        let given = clip(text.lines().nth(line).unwrap_or(""));
+        let mut message = helpful(error.message());
+        if !given.is_empty() {
+            message.push_str(&format!(", at: {given}"));
+        }
+        SceneError::Text {
+            line: line + 1,
+            message,
+        }
+    })
+}
+
+/// A message of serde's, with the nearest known key where it names an unknown one.
+fn helpful(message: &str) -> String {
+    let message = message.trim();
+    let mut quoted = message.split('`').skip(1).step_by(2);
+    let unknown = message.starts_with("unknown field") || message.starts_with("unknown variant");
+    match (unknown, quoted.next()) {
+        (true, Some(word)) => {
+            let known: Vec<&str> = quoted.collect();
+            if known.is_empty() {
+                return clip(message);
+            }
+            let nearest = nearest(word, known.iter().copied());
+            let what = if message.starts_with("unknown field") {
+                "key"
+            } else {
+                "word"
+            };
+            let (word, known) = (clip(word), known.join(", "));
+            format!("unknown {what} \"{word}\"; did you mean \"{nearest}\"? (known: {known})")
+        }
+        _ => message.lines().collect::<Vec<_>>().join(", "),
+    }
+}
