@@ -29,21 +29,21 @@ pub(crate) enum Command {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Run {
-    /// A shipped scene's name, or a scene file.
+    /// A shipped scene's name, or a scene file; `-` is standard input.
     pub scene: String,
     /// Another scheme than the scene's.
     #[arg(long, value_name = "NAME")]
     pub scheme: Option<String>,
     /// Another step than the scene's.
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub dt: Option<f64>,
-    /// Another number of steps than the scene's.
+    /// Another number of steps than the scene's (or, with a rule for rest, at most so many).
     #[arg(long, value_name = "N")]
     pub steps: Option<u64>,
     /// Run although the step is beyond the limit of stability.
     #[arg(long)]
     pub force: bool,
-    /// Write the moments kept: `.csv` as CSV, else JSON Lines; `-` to standard output.
+    /// Write the moments kept: CSV if the name ends in .csv, else JSON Lines; `-` is standard output.
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
     /// Keep a moment every N steps (and the first and the last).
@@ -55,7 +55,7 @@ pub(crate) struct Run {
     /// Keep energies too.
     #[arg(long)]
     pub energies: bool,
-    /// Write the final contour; `-` to standard output.
+    /// Write the final contour; `-` is standard output.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Write the picture with the start (blue) and the final contour (orange) over it.
@@ -71,7 +71,12 @@ pub(crate) struct Field {
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Smooth by a Gaussian of this width, pixels.
-    #[arg(long, value_name = "PX", conflicts_with = "passes")]
+    #[arg(
+        long,
+        value_name = "PX",
+        conflicts_with = "passes",
+        allow_negative_numbers = true
+    )]
     pub sigma: Option<f64>,
     /// Smooth by so many passes of [1/4 1/2 1/4]; the report takes 20, a width of 3.16 pixels.
     #[arg(long, value_name = "N")]
@@ -82,10 +87,11 @@ pub(crate) struct Field {
 pub(crate) struct Fit {
     /// The picture: PNG, JPEG, TIFF, PGM or PPM.
     pub image: PathBuf,
-    /// The contour to start from: a CSV of x,y, pixels, the first pixel's center at 0,0.
+    /// The contour to start from: a CSV of x,y in pixels, the first pixel's center at 0,0; `-` is
+    /// standard input.
     #[arg(long, value_name = "CONTOUR")]
     pub from: PathBuf,
-    /// Write the contour found; standard output if not given.
+    /// Write the contour found; standard output if not given or `-`.
     #[arg(long, value_name = "CONTOUR")]
     pub out: Option<PathBuf>,
     /// Write the picture with the start (blue) and the contour found (orange) over it.
@@ -101,25 +107,25 @@ pub(crate) struct Fit {
     #[arg(long, value_name = "N")]
     pub nodes: Option<usize>,
     /// How hard each node is held to its place in the start's shape.
-    #[arg(long, value_name = "W0", default_value_t = scene::Fit::default().tether)]
+    #[arg(long, value_name = "W0", allow_negative_numbers = true, default_value_t = scene::Fit::default().tether)]
     pub tether: f64,
     /// How hard the curve resists stretching out of the start's shape.
-    #[arg(long, value_name = "W1", default_value_t = scene::Fit::default().tension)]
+    #[arg(long, value_name = "W1", allow_negative_numbers = true, default_value_t = scene::Fit::default().tension)]
     pub tension: f64,
     /// How hard the curve resists bending out of the start's shape.
-    #[arg(long, value_name = "W2", default_value_t = scene::Fit::default().rigidity)]
+    #[arg(long, value_name = "W2", allow_negative_numbers = true, default_value_t = scene::Fit::default().rigidity)]
     pub rigidity: f64,
     /// How strongly the motion is damped.
-    #[arg(long, value_name = "G", default_value_t = scene::Fit::default().damping)]
+    #[arg(long, value_name = "G", allow_negative_numbers = true, default_value_t = scene::Fit::default().damping)]
     pub damping: f64,
     /// Width of the Gaussian that smooths the picture, pixels; the reach is about three times that.
-    #[arg(long, value_name = "PX", default_value_t = scene::Fit::default().sigma)]
+    #[arg(long, value_name = "PX", allow_negative_numbers = true, default_value_t = scene::Fit::default().sigma)]
     pub sigma: f64,
     /// How hard the picture pulls; 1 suits most.
-    #[arg(long, value_name = "S", default_value_t = scene::Fit::default().strength)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, default_value_t = scene::Fit::default().strength)]
     pub strength: f64,
-    /// The step; half of the largest stable one if not given.
-    #[arg(long, value_name = "T")]
+    /// The step; half of the largest stable one if not given, and at most 0.2.
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub dt: Option<f64>,
     /// Steps at most.
     #[arg(long, value_name = "N", default_value_t = scene::Fit::default().steps)]

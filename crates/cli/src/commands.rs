@@ -1,64 +1,54 @@
 //! What each command does with its flags: a scene, a run, files.
 
+use std::fmt::Write as _;
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use indicatif::{ProgressBar, ProgressStyle};
+use scene::field::Smoothing;
 use scene::integrator::Scheme;
 use scene::snake::Outcome;
-use scene::{Contour, Picture, Record, Scene, SceneError, paint};
+use scene::{Contour, Picture, Record, Scene, SceneError};
 
 use crate::args;
+use crate::output::{Output, put, say};
 
 type Answer = Result<ExitCode, SceneError>;
 
-/// Colours of the start and of the result over a picture.
-const START: [u8; 3] = [86, 180, 233];
-const FOUND: [u8; 3] = [230, 97, 1];
-
 pub(crate) fn run(args: &args::Run) -> Answer {
-    let path = Path::new(&args.scene);
-    let mut scene = if path.extension().is_some() || path.components().count() > 1 {
-        Scene::load(path)?
-    } else {
-        Scene::named(&args.scene)?
-    };
+    let mut scene = find(&args.scene)?;
     let plan = &mut scene.plan;
     if let Some(name) = &args.scheme {
         plan.scheme = name.parse::<Scheme>().map_err(|e| key("--scheme", e))?;
     }
+    if args.every == Some(0) {
+        return Err(key("--every", "must be at least 1, got 0"));
+    }
     plan.dt = args.dt.unwrap_or(plan.dt);
     plan.until.steps = args.steps.unwrap_or(plan.until.steps);
     plan.force |= args.force;
-    plan.recording.every = args
-        .every
-        .or(plan.recording.every)
-        .map(|every| every.max(1));
+    plan.recording.every = args.every.or(plan.recording.every);
     plan.recording.velocities |= args.velocities;
     plan.recording.energies |= args.energies;
     if args.record.is_none() {
         // nobody will see them
         plan.recording.every = None;
         plan.recording.steps.clear();
+        plan.recording.energies = false;
     }
-    if args.overlay.is_some() && scene.picture.is_none() {
-        return Err(key("--overlay", "this scene has no picture to draw on"));
-    }
-    let record = watched(&mut scene)?;
-    if let Some(file) = &args.record {
-        if file.as_os_str() == "-" {
-            print!("{}", record.to_json_lines()?);
-        } else {
-            record.save(file)?;
-        }
-    }
-    leave(
-        &scene,
-        &record,
-        args.out.as_deref(),
-        args.overlay.as_deref(),
-    )
+    let output = Output {
+        record: args.record.clone(),
+        contour: args.out.clone(),
+        overlay: args.overlay.clone(),
+    };
+    let flags = [
+        ("run.dt", "--dt", args.dt.is_some()),
+        ("run.steps", "--steps", args.steps.is_some()),
+        ("run.scheme", "--scheme", args.scheme.is_some()),
+        ("record.every", "--every", args.every.is_some()),
+    ];
+    go(&mut scene, &output, &flags)
 }
 
 pub(crate) fn fit(args: &args::Fit) -> Answer {
@@ -80,41 +70,86 @@ pub(crate) fn fit(args: &args::Fit) -> Answer {
     };
     let picture = Picture::load(&args.image)?;
     let contour = Contour::load(&args.from)?;
+    let output = Output {
+        record: None,
+        contour: Some(args.out.clone().unwrap_or_else(|| PathBuf::from("-"))),
+        overlay: args.overlay.clone(),
+    };
+    output.check(Some(&picture))?;
     let mut scene = fit.scene(picture, &contour)?;
-    let record = watched(&mut scene)?;
-    let out = args.out.as_deref().unwrap_or_else(|| Path::new("-"));
-    leave(&scene, &record, Some(out), args.overlay.as_deref())
+    let flags = [("run.dt", "--dt", true), ("run.steps", "--steps", true)];
+    go(&mut scene, &output, &flags)
 }
 
 pub(crate) fn field(args: &args::Field) -> Answer {
     let picture = Picture::load(&args.image)?;
     let smoothing = match (args.sigma, args.passes) {
-        (Some(sigma), _) => scene::field::Smoothing::Gaussian(sigma),
-        (None, Some(passes)) => scene::field::Smoothing::Binomial(passes),
-        (None, None) => scene::field::Smoothing::Binomial(scene::field::REPORT_PASSES),
+        (Some(sigma), _) => Smoothing::Gaussian(sigma),
+        (None, Some(passes)) => Smoothing::Binomial(passes),
+        (None, None) => Smoothing::Binomial(scene::field::REPORT_PASSES),
     };
+    let mut text = String::new();
     for file in scene::write_stages(&picture, smoothing, &args.out)? {
-        println!("{}", file.display());
+        // writing to a String cannot fail
+        let _ = writeln!(text, "{}", file.display());
     }
+    put(&text)?;
     Ok(ExitCode::SUCCESS)
 }
 
 pub(crate) fn list(args: &args::List) -> Answer {
+    let mut text = String::new();
     match args.what {
         args::What::Scenes => {
             for (name, _) in scene::SCENES {
-                let scene = Scene::named(name)?;
-                let report = scene.report.map_or_else(String::new, |r| format!(" ({r})"));
-                println!("{name:26} {}{report}", scene.title);
+                let (title, report) = scene::headline(name)?;
+                let report = report.map_or_else(String::new, |r| format!(" ({r})"));
+                let _ = writeln!(text, "{name:26} {title}{report}");
             }
         }
         args::What::Schemes => {
             for scheme in Scheme::ALL {
-                println!("{:18} {}", scheme.name(), scheme.summary());
+                let _ = writeln!(text, "{:18} {}", scheme.name(), scheme.summary());
             }
         }
     }
+    put(&text)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// A shipped scene by its name, or a scene file by its path, or standard input.
+fn find(name: &str) -> Result<Scene, SceneError> {
+    let path = Path::new(name);
+    let shipped = scene::SCENES.iter().any(|(known, _)| *known == name);
+    let file = path.extension().is_some() || path.components().count() > 1 || path.exists();
+    if name == "-" || (file && !shipped) {
+        Scene::load(path)
+    } else {
+        Scene::named(name)
+    }
+}
+
+/// A key of the scene, the flag that stands for it, and whether it was given.
+type Flags<'a> = [(&'a str, &'a str, bool)];
+
+/// Check, run, write, say how it ended, and turn that into a code.
+fn go(scene: &mut Scene, output: &Output, flags: &Flags<'_>) -> Answer {
+    scene.check().map_err(|error| by_flag(error, flags))?;
+    output.check(scene.picture.as_deref())?;
+    let record = watched(scene).map_err(|error| by_flag(error, flags))?;
+    output.write(scene, &record)?;
+    let (title, outcome) = (&scene.title, record.outcome);
+    let t = record.last().map_or(0.0, |last| last.t);
+    match outcome {
+        Outcome::Diverged { .. } => say(&format!("{title}: {outcome}; no contour to write")),
+        _ => say(&format!("{title}: {outcome}, t = {t:.6}")),
+    }
+    let short = matches!(outcome, Outcome::Finished { .. }) && scene.plan.until.rest.is_some();
+    Ok(if outcome.is_good() && !short {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::from(1)
+    })
 }
 
 /// Run a scene with a progress bar on standard error, when a person is there to see it.
@@ -133,38 +168,23 @@ fn watched(scene: &mut Scene) -> Result<Record, SceneError> {
     record
 }
 
-/// Write what was asked for, say how it ended, and turn that into a code.
-fn leave(scene: &Scene, record: &Record, out: Option<&Path>, overlay: Option<&Path>) -> Answer {
-    let (Some(first), Some(last)) = (record.frames.first(), record.last()) else {
-        return Err(key("run", "nothing was kept"));
+/// An error under the flag that was typed instead of the key that the flag stands for.
+fn by_flag(error: SceneError, flags: &Flags<'_>) -> SceneError {
+    let (at, message) = match &error {
+        SceneError::Step(message) => ("run.dt", message),
+        SceneError::Key { key, message } => (key.as_str(), message),
+        _ => return error,
     };
-    eprintln!("{}: {}, t = {:.6}", scene.title, record.outcome, last.t);
-    let contour = Contour {
-        closed: Some(record.closed),
-        points: last.nodes.clone(),
-    };
-    match out {
-        Some(path) if path.as_os_str() == "-" => print!("{}", contour.to_text()),
-        Some(path) => contour.save(path)?,
-        None => {}
+    match flags
+        .iter()
+        .find(|(known, _, given)| *given && *known == at)
+    {
+        Some((_, flag, _)) => key(flag, message),
+        None => error,
     }
-    if let (Some(path), Some(picture)) = (overlay, &scene.picture) {
-        let curves: [(&[_], bool, [u8; 3]); 2] = [
-            (&first.nodes, record.closed, START),
-            (&last.nodes, record.closed, FOUND),
-        ];
-        paint::save_png(&paint::overlay(picture, &curves), path)?;
-    }
-    let short =
-        matches!(record.outcome, Outcome::Finished { .. }) && scene.plan.until.rest.is_some();
-    Ok(if record.outcome.is_good() && !short {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::from(1)
-    })
 }
 
-fn key(key: &str, message: impl ToString) -> SceneError {
+pub(crate) fn key(key: &str, message: impl ToString) -> SceneError {
     SceneError::Key {
         key: key.to_owned(),
         message: message.to_string(),

@@ -2,21 +2,21 @@
 //!
 //! Exit code 0: it came to rest, or ran as asked. 1: it ran, but blew up, left the picture or ran
 //! out of steps before rest. 2: refused, with one line that says why and what would do.
-#![allow(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "results go to standard output and words to standard error: that is its job"
-)]
 
 mod args;
 mod commands;
+mod output;
 
 use std::process::ExitCode;
 
 use clap::Parser as _;
+use clap::error::ErrorKind;
 
 fn main() -> ExitCode {
-    let args = args::Args::parse();
+    let args = match args::Args::try_parse() {
+        Ok(args) => args,
+        Err(error) => return mistyped(&error),
+    };
     let outcome = match args.command {
         args::Command::Run(run) => commands::run(&run),
         args::Command::Field(field) => commands::field(&field),
@@ -26,8 +26,33 @@ fn main() -> ExitCode {
     match outcome {
         Ok(code) => code,
         Err(error) => {
-            eprintln!("snake: {error}");
+            output::say(&format!("snake: {error}"));
             ExitCode::from(2)
         }
     }
+}
+
+/// Help that was asked for, or what is wrong with the flags, on one line.
+fn mistyped(error: &clap::Error) -> ExitCode {
+    let help = !error.use_stderr();
+    if help || error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        // nobody may be there to read it
+        let _ = error.print();
+        return if help {
+            ExitCode::SUCCESS
+        } else {
+            ExitCode::from(2)
+        };
+    }
+    let text = error.to_string();
+    let lines: Vec<&str> = text
+        .lines()
+        .map(str::trim)
+        .take_while(|line| !line.starts_with("Usage:"))
+        .filter(|line| !line.is_empty() && !line.starts_with("For more information"))
+        .collect();
+    let line = lines.join("; ");
+    let line = line.strip_prefix("error: ").unwrap_or(&line);
+    output::say(&format!("snake: {line} (--help shows all)"));
+    ExitCode::from(2)
 }

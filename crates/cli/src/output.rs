@@ -1,0 +1,121 @@
+//! Where results go: files, made sure of before the work and written after it; standard output.
+
+use std::io::{ErrorKind, Write as _};
+use std::path::{Path, PathBuf};
+
+use scene::snake::Outcome;
+use scene::{Contour, Picture, Record, Scene, SceneError, paint};
+
+use crate::commands::key;
+
+/// Colours of the start and of the result over a picture.
+const START: [u8; 3] = [86, 180, 233];
+const FOUND: [u8; 3] = [230, 97, 1];
+
+/// Write to standard output; a reader that has gone away (`| head`) is no error.
+pub(crate) fn put(text: &str) -> Result<(), SceneError> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(key(
+            "standard output",
+            format!("cannot be written: {error}; a file would do"),
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// A line for people, to standard error; nobody may be there to read it.
+pub(crate) fn say(text: &str) {
+    // titles and names come from files: whatever they hold stays on one line
+    let line: String = text
+        .chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect();
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// What a run is to leave behind.
+#[derive(Debug)]
+pub(crate) struct Output {
+    pub record: Option<PathBuf>,
+    pub contour: Option<PathBuf>,
+    pub overlay: Option<PathBuf>,
+}
+
+impl Output {
+    fn all(&self) -> [(&'static str, Option<&PathBuf>); 3] {
+        [
+            ("--record", self.record.as_ref()),
+            ("--out", self.contour.as_ref()),
+            ("--overlay", self.overlay.as_ref()),
+        ]
+    }
+
+    /// Find out before the run whether everything can be written after it.
+    pub(crate) fn check(&self, picture: Option<&Picture>) -> Result<(), SceneError> {
+        if let Some(path) = &self.overlay {
+            if picture.is_none() {
+                return Err(key("--overlay", "this scene has no picture to draw on"));
+            }
+            let png = path
+                .extension()
+                .is_some_and(|e| e.eq_ignore_ascii_case("png"));
+            if !png {
+                let message = format!(
+                    "writes PNG; a name that ends in .png would do, got {}",
+                    path.display()
+                );
+                return Err(key("--overlay", message));
+            }
+        }
+        let mut seen: Vec<(&str, &Path)> = Vec::new();
+        for (flag, path) in self.all() {
+            let Some(path) = path else { continue };
+            if let Some((other, _)) = seen.iter().find(|(_, known)| known == path) {
+                let message = format!("{} is taken by {other}; another would do", path.display());
+                return Err(key(flag, message));
+            }
+            seen.push((flag, path));
+            if !is_standard(path) {
+                scene::ready_file(path)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Write what was asked for. A run that blew up has no contour to show, only a record.
+    pub(crate) fn write(&self, scene: &Scene, record: &Record) -> Result<(), SceneError> {
+        let (Some(first), Some(last)) = (record.frames.first(), record.last()) else {
+            return Err(key("run", "nothing was kept"));
+        };
+        let mut printed = String::new();
+        match &self.record {
+            Some(path) if is_standard(path) => printed.push_str(&record.to_json_lines()?),
+            Some(path) => record.save(path)?,
+            None => {}
+        }
+        if !matches!(record.outcome, Outcome::Diverged { .. }) {
+            let contour = Contour {
+                closed: Some(record.closed),
+                points: last.nodes.clone(),
+            };
+            match &self.contour {
+                Some(path) if is_standard(path) => printed.push_str(&contour.to_text()),
+                Some(path) => contour.save(path)?,
+                None => {}
+            }
+            if let (Some(path), Some(picture)) = (&self.overlay, &scene.picture) {
+                let curves: [(&[_], bool, [u8; 3]); 2] = [
+                    (&first.nodes, record.closed, START),
+                    (&last.nodes, record.closed, FOUND),
+                ];
+                paint::save_png(&paint::overlay(picture, &curves), path)?;
+            }
+        }
+        put(&printed)
+    }
+}
