@@ -21,7 +21,7 @@ pub(crate) const CLOSED: Experiment = Experiment {
     claims: &[
         Claim {
             says: "it comes within 2 px of the contour in the mean, outside the boxes of what disturbs",
-            source: "issue",
+            source: "our aim",
             judge: |r| {
                 let (mean, count) = (
                     r.number("mean distance at the end")?,

@@ -251,7 +251,7 @@ pub(crate) const THIRD: Experiment = Experiment {
     claims: &[
         Claim {
             says: "the snake can reach the apple's contour",
-            source: "report §4.3, issue",
+            source: "report §4.3, our aim",
             judge: |r| {
                 let (mean, count) = (
                     r.number("mean distance to the contour at n")?,

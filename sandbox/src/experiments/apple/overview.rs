@@ -47,7 +47,7 @@ pub(crate) const OVERVIEW: Experiment = Experiment {
         },
         Claim {
             says: "it ends within 2 px of the contour drawn by hand, in the mean",
-            source: "issue",
+            source: "our aim",
             judge: |r| {
                 let mean = r.number("mean distance at the end")?;
                 Ok(Finding::new(
