@@ -36,6 +36,7 @@
 //! its nodes, or meet another snake.
 
 mod body;
+mod certificate;
 mod energy;
 mod error;
 mod external;
@@ -45,6 +46,7 @@ mod snake;
 mod wall;
 
 pub use body::{Body, Center, Frame};
+pub use certificate::{Certificate, ModeOfMotion};
 pub use energy::{Energies, Ledger};
 pub use error::SnakeError;
 pub use external::{External, ImageForce, Sampling, World};

@@ -1,0 +1,407 @@
+//! What can be said of a snake before it moves: frequencies, largest steps, damping, time to rest.
+
+use std::fmt;
+
+use banded::{Circulant, Dense};
+use field::{ForceField, Interpolation};
+use glam::{DMat2, DVec2};
+use integrator::{Fault, Scheme, State, System};
+
+use crate::{External, Snake};
+
+/// The most nodes whose modes are found one by one where the curve is not a ring of equal nodes.
+const MOST: usize = 400;
+
+/// Rest: a deformation has fallen to this share of what it was.
+const REST: f64 = 0.01;
+
+/// One way for the whole curve to move, as a damped oscillator `ü + 2 ζ ω u̇ + ω² u = 0`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModeOfMotion {
+    /// ω: its frequency without damping. T⁻¹. 0: nothing brings it back.
+    pub frequency: f64,
+    /// γ/(2μ) as this mode feels it. T⁻¹.
+    pub fading: f64,
+}
+
+impl ModeOfMotion {
+    /// ζ: below 1 it rings, above 1 it creeps, at 1 it is first at rest. Infinite where ω = 0.
+    #[must_use]
+    pub fn damping_ratio(&self) -> f64 {
+        if self.frequency > 0.0 || self.fading > 0.0 {
+            self.fading / self.frequency
+        } else {
+            0.0
+        }
+    }
+
+    /// The rate at which it decays in the end: the slower of its two roots; for ω = 0, that of its
+    /// velocity. T⁻¹.
+    #[must_use]
+    pub fn decay(&self) -> f64 {
+        let (b, w) = (self.fading, self.frequency);
+        if w > 0.0 && b > w {
+            w * (w / (b + ((b - w) * (b + w)).sqrt()))
+        } else if w > 0.0 {
+            b
+        } else {
+            2.0 * b
+        }
+    }
+}
+
+/// What a snake's parameters say about its motion, before a step is made.
+///
+/// ```text
+/// elastic   ω = √λ,   K u = λ M u
+/// image     ω = √(κ/μ),   κ: how steeply a picture pushes back, −∂F/∂x
+/// contact   ω = √(k/μ),   k: stiffness of penalty walls
+/// ```
+///
+/// Parameters are those of the time the snake stands at. Modes are exact where γ/μ is the same at every
+/// node, and of first order in its differences otherwise. O(n log n) for a closed curve of equal
+/// nodes, O(n³) for others up to 400 nodes, and only the outermost modes beyond: O(n).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Certificate {
+    /// Nodes.
+    pub nodes: usize,
+    /// Highest frequency of the elastic force. T⁻¹. Infinite for a node without mass.
+    pub elastic: f64,
+    /// Highest frequency about an edge of a picture. T⁻¹. 0 without a picture.
+    pub image: f64,
+    /// The slope κ behind it. M T⁻².
+    pub image_slope: f64,
+    /// Highest frequency at a penalty wall. T⁻¹. 0 without one.
+    pub contact: f64,
+    /// The largest step of each scheme of [`Scheme::ALL`], image and contacts counted; None where
+    /// no step is too large.
+    pub steps: Vec<(Scheme, Option<f64>)>,
+    /// All modes from the slowest up, or the outermost two (see [`Certificate::complete`]).
+    pub modes: Vec<ModeOfMotion>,
+    /// Whether `modes` are all of them.
+    pub complete: bool,
+}
+
+impl Certificate {
+    /// Ask a snake. With a state, the picture's slope is taken at its nodes; without, it is the
+    /// steepest anywhere in the picture, O(pixels).
+    #[must_use]
+    pub fn of(snake: &Snake, state: Option<&State>) -> Self {
+        let least = free(snake, snake.mass()).fold(f64::INFINITY, f64::min);
+        let frequency = |stiffness: f64| (stiffness / least).sqrt();
+        let image_slope = image_slope(snake, state);
+        let (contact, _) = snake.contact_stiffness();
+        let (modes, complete) = modes(snake);
+        let felt = Felt { snake, image_slope };
+        let shortest = Scheme::Leapfrog.step_limit(&felt).unwrap_or(1.0);
+        let limit = |scheme: Scheme| {
+            // this one has the picture's slope in its matrix
+            let system: &dyn System = match scheme {
+                Scheme::LinearlyImplicit => snake,
+                _ => &felt,
+            };
+            // beyond any time the snake knows of, only rounding decides
+            let limit = scheme.step_limit(system).filter(|dt| *dt < 1e12 * shortest);
+            (scheme, limit)
+        };
+        Self {
+            nodes: snake.len(),
+            elastic: modes.last().map_or(0.0, |mode| mode.frequency),
+            image: if image_slope > 0.0 {
+                frequency(image_slope)
+            } else {
+                0.0
+            },
+            image_slope,
+            contact: if contact > 0.0 {
+                frequency(contact)
+            } else {
+                0.0
+            },
+            steps: Scheme::ALL.iter().map(|&scheme| limit(scheme)).collect(),
+            modes,
+            complete,
+        }
+    }
+
+    /// The rate of the mode that is last to come to rest. T⁻¹. 0 where one never does.
+    #[must_use]
+    pub fn slowest_decay(&self) -> f64 {
+        self.modes
+            .iter()
+            .map(ModeOfMotion::decay)
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Time until the slowest mode has fallen to a hundredth; None without damping. T.
+    #[must_use]
+    pub fn time_to_rest(&self) -> Option<f64> {
+        let rate = self.slowest_decay();
+        (rate > 0.0).then(|| -REST.ln() / rate)
+    }
+
+    /// How many modes ring, and how many creep.
+    #[must_use]
+    pub fn ringing_and_creeping(&self) -> (usize, usize) {
+        let ringing = self
+            .modes
+            .iter()
+            .filter(|mode| mode.damping_ratio() < 1.0)
+            .count();
+        (ringing, self.modes.len() - ringing)
+    }
+}
+
+impl fmt::Display for Certificate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "highest frequencies, 1/T")?;
+        for (name, value) in [
+            ("elastic", self.elastic),
+            ("image", self.image),
+            ("contact", self.contact),
+        ] {
+            writeln!(f, "  {name:<18} {value:.6}")?;
+        }
+        let (ringing, creeping) = self.ringing_and_creeping();
+        match (self.complete, self.modes.first(), self.modes.last()) {
+            (true, _, _) => writeln!(f, "modes: {ringing} ring, {creeping} creep")?,
+            (false, Some(slow), Some(fast)) => writeln!(
+                f,
+                "damping ratio from {:.4} (slowest mode) to {:.4} (fastest)",
+                slow.damping_ratio(),
+                fast.damping_ratio()
+            )?,
+            _ => {}
+        }
+        match self.time_to_rest() {
+            Some(time) => writeln!(f, "to a hundredth of any deformation in {time:.4} T")?,
+            None => writeln!(f, "never comes to rest: a mode has no damping")?,
+        }
+        writeln!(f, "largest step, T")?;
+        for (scheme, limit) in &self.steps {
+            match limit {
+                Some(dt) if *dt > 0.0 => writeln!(f, "  {:<18} {dt:.6}", scheme.name())?,
+                Some(_) => writeln!(f, "  {:<18} none is small enough", scheme.name())?,
+                None => writeln!(f, "  {:<18} any", scheme.name())?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Values at nodes that may move.
+fn free<'a>(snake: &'a Snake, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+    let pairs = values.iter().zip(snake.held());
+    pairs.filter(|(_, held)| !**held).map(|(&value, _)| value)
+}
+
+/// Modes from the slowest up, and whether these are all.
+fn modes(snake: &Snake) -> (Vec<ModeOfMotion>, bool) {
+    let (mass, damping) = (snake.mass(), snake.damping());
+    let least = free(snake, mass).fold(f64::INFINITY, f64::min);
+    if least == f64::INFINITY {
+        return (Vec::new(), true); // every node is held
+    }
+    if least <= 0.0 {
+        let frantic = ModeOfMotion {
+            frequency: f64::INFINITY,
+            fading: f64::INFINITY,
+        };
+        return (vec![frantic], false);
+    }
+    let mode = |stiffness: f64, fading: f64| ModeOfMotion {
+        frequency: stiffness.max(0.0).sqrt(),
+        fading,
+    };
+    // a stiffness below the rounding of the largest is none
+    let clean = |mut modes: Vec<ModeOfMotion>| {
+        let most = modes.iter().map(|mode| mode.frequency).fold(0.0, f64::max);
+        for mode in modes.iter_mut().filter(|mode| mode.frequency < 1e-6 * most) {
+            mode.frequency = 0.0;
+        }
+        modes
+    };
+    if let Some(values) = waves(snake) {
+        let fading = 0.5 * damping[0] / mass[0];
+        let modes = values.iter().map(|value| mode(value / mass[0], fading));
+        return (clean(modes.collect()), true);
+    }
+    let n = snake.len();
+    let held = snake.held();
+    if n <= MOST {
+        let matrix = snake.stiffness().dense();
+        let root: Vec<f64> = (0..n)
+            .map(|i| if held[i] { 1.0 } else { mass[i].sqrt() })
+            .collect();
+        let scaled = Dense::from_fn(n, |i, j| matrix[(i, j)] / (root[i] * root[j]));
+        if let Ok(eigen) = scaled.eigen() {
+            let pairs = eigen.values.iter().zip(&eigen.vectors);
+            // held nodes are modes of their own, of no stiffness: not motions
+            let moving = pairs.filter(|(_, u)| (0..n).any(|i| !held[i] && u[i].abs() > 1e-6));
+            let fading = |u: &[f64]| -> f64 {
+                (0..n)
+                    .map(|i| {
+                        if held[i] {
+                            0.0
+                        } else {
+                            u[i] * u[i] * damping[i] / mass[i]
+                        }
+                    })
+                    .sum()
+            };
+            let modes = moving.map(|(&value, u)| mode(value, 0.5 * fading(u)));
+            return (clean(modes.collect()), true);
+        }
+    }
+    outermost(snake)
+}
+
+/// Eigenvalues of a closed curve of equal nodes, in ascending order.
+fn waves(snake: &Snake) -> Option<Vec<f64>> {
+    let equal = |values: &[f64]| values.iter().all(|v| v.to_bits() == values[0].to_bits());
+    let operator = snake.stiffness();
+    let even = !snake.held().contains(&true)
+        && equal(snake.mass())
+        && equal(snake.damping())
+        && operator.columns().iter().all(|column| equal(column));
+    let circulant = even
+        .then(|| Circulant::new(operator.band()).ok())
+        .flatten()?;
+    let mut values = circulant.eigenvalues().to_vec();
+    if !operator.columns().is_empty() {
+        // what all nodes share only changes the mode in which all move alike
+        let mut product = vec![0.0; values.len()];
+        operator.multiply_scalars_into(&vec![1.0; values.len()], &mut product);
+        values[0] = product.iter().sum::<f64>() / values.len() as f64;
+    }
+    values.sort_by(f64::total_cmp);
+    Some(values)
+}
+
+/// The outermost two modes: stiffness by bisection, damping from its extremes. A body frame only lowers eigenvalues to 0 or leaves them between their neighbours, so the band's stand in.
+fn outermost(snake: &Snake) -> (Vec<ModeOfMotion>, bool) {
+    let weights: Vec<f64> = snake
+        .mass()
+        .iter()
+        .zip(snake.held())
+        .map(|(&mass, &held)| if held { 1.0 } else { mass })
+        .collect();
+    let band = snake.stiffness().band();
+    let ratios = snake.damping().iter().zip(snake.mass()).zip(snake.held());
+    let moving = ratios.filter(|(_, held)| !**held).map(|((c, m), _)| c / m);
+    let (low, high) = moving.fold((f64::INFINITY, 0.0_f64), |(low, high), ratio| {
+        (low.min(ratio), high.max(ratio))
+    });
+    let slow = banded::smallest_eigenvalue(band, &weights).max(0.0);
+    let fast = banded::largest_eigenvalue(band, &weights).max(0.0);
+    // slowest to rest: the least fading where it rings, the most where it creeps
+    let candidates = [low, high].map(|ratio| ModeOfMotion {
+        frequency: slow.sqrt(),
+        fading: 0.5 * ratio,
+    });
+    let first = if candidates[0].decay() <= candidates[1].decay() {
+        0
+    } else {
+        1
+    };
+    let last = ModeOfMotion {
+        frequency: fast.sqrt(),
+        fading: 0.5 * low,
+    };
+    (vec![candidates[first], last], false)
+}
+
+/// How steeply the pictures push a node back at most: the largest −∂F/∂x along any direction.
+fn image_slope(snake: &Snake, state: Option<&State>) -> f64 {
+    let mut steepest = 0.0_f64;
+    for external in &snake.world().externals {
+        let External::Image(image) = external else {
+            continue;
+        };
+        match state {
+            Some(state) => {
+                for (i, &p) in state
+                    .x
+                    .iter()
+                    .enumerate()
+                    .filter(|(i, _)| !snake.held()[*i])
+                {
+                    let (_, slope) = image.field.sample_with_slope(p, Interpolation::Bilinear);
+                    steepest = steepest.max(image.weight.at(i) * push_back(slope));
+                }
+            }
+            None => {
+                let weight = image.weight.to_vec(snake.len());
+                let most = weight.iter().copied().fold(0.0, f64::max);
+                steepest = steepest.max(most * steepest_in(&image.field));
+            }
+        }
+    }
+    steepest
+}
+
+/// The steepest push back anywhere between the pixel centers.
+///
+/// In a cell the slope along x is linear in y and the other way round, and the steepest push back is
+/// a convex function of both: it is largest in a corner.
+fn steepest_in(field: &ForceField) -> f64 {
+    let at = |column: usize, row: usize| field.pixel(column, row).unwrap_or(DVec2::ZERO);
+    let mut steepest = 0.0_f64;
+    for row in 1..field.height() {
+        for column in 1..field.width() {
+            let [a, b] = [at(column - 1, row - 1), at(column, row - 1)];
+            let [c, d] = [at(column - 1, row), at(column, row)];
+            for x in [b - a, d - c] {
+                for y in [c - a, d - b] {
+                    steepest = steepest.max(push_back(DMat2::from_cols(x, y)));
+                }
+            }
+        }
+    }
+    steepest
+}
+
+/// The largest eigenvalue of −½ (J + Jᵀ), at least 0.
+fn push_back(slope: DMat2) -> f64 {
+    let (a, d) = (-slope.x_axis.x, -slope.y_axis.y);
+    let b = -0.5 * (slope.x_axis.y + slope.y_axis.x);
+    (0.5 * (a + d) + (0.5 * (a - d)).hypot(b)).max(0.0)
+}
+
+/// The snake with the slope of its pictures where a penalty wall would be, to ask for largest steps.
+struct Felt<'a> {
+    snake: &'a Snake,
+    image_slope: f64,
+}
+
+impl System for Felt<'_> {
+    fn len(&self) -> usize {
+        self.snake.len()
+    }
+    fn mass(&self) -> &[f64] {
+        self.snake.mass()
+    }
+    fn damping(&self) -> &[f64] {
+        self.snake.damping()
+    }
+    fn held(&self) -> &[bool] {
+        self.snake.held()
+    }
+    fn stiffness(&self) -> &banded::Operator {
+        self.snake.stiffness()
+    }
+    fn elastic(&mut self, _: &[DVec2], force: &mut [DVec2]) {
+        force.fill(DVec2::ZERO); // asked for its limits only; it never moves
+    }
+    fn external(&mut self, _: f64, _: &[DVec2], _: &[DVec2], _: &mut [DVec2]) -> Result<(), Fault> {
+        Ok(())
+    }
+    fn contact_stiffness(&self) -> (f64, f64) {
+        let (stiffness, damping) = self.snake.contact_stiffness();
+        (stiffness + self.image_slope, damping)
+    }
+}
+
+#[cfg(test)]
+#[path = "certificate_tests.rs"]
+mod tests;
