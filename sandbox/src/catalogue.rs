@@ -2,8 +2,8 @@
 
 use crate::Experiment;
 use crate::experiments::{
-    angle, apple, ball, corners, damping, decomposition, disc, ends, energy, force_field, matrix,
-    profiles, signal, smoothing, time_step,
+    angle, apple, atlas, ball, corners, damping, decomposition, disc, ends, energy, force_field,
+    matrix, profiles, signal, smoothing, time_step,
 };
 
 /// Every experiment. A new one is added here and nowhere else.
@@ -38,6 +38,10 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &apple::RULES,
     &apple::CLOSED,
     &angle::ANGLE,
+    &atlas::FAMILY,
+    &atlas::MASS,
+    &atlas::STIFFNESS,
+    &atlas::STEP,
 ];
 
 /// The experiment of that name.

@@ -29,6 +29,11 @@ pub use catalogue::{EXPERIMENTS, find};
 pub use error::SandboxError;
 pub use expected::{Moved, accept, compare, expected_folder};
 pub use experiment::{Artefact, Body, Claim, Experiment, Finding};
+pub use experiments::atlas::ATLAS;
+pub use experiments::integrators::{
+    Effort, INTEGRATORS, NODES, Stopwatch, Trial, apple, coarsest, edge, effort, least_steps, ring,
+    scan, wall,
+};
 pub use folder::Folder;
 pub use gallery::gallery;
 pub use page::page;

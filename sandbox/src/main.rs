@@ -10,9 +10,11 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use sandbox::{
-    Done, EXPERIMENTS, Experiment, Folder, SandboxError, accept, committed_folder, compare, find,
-    gallery, page, perform, perform_all,
+    ATLAS, Done, EXPERIMENTS, Experiment, Folder, INTEGRATORS, SandboxError, accept,
+    committed_folder, compare, find, gallery, page, perform, perform_all,
 };
+use scene::Scene;
+use snake::Certificate;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -39,8 +41,27 @@ enum What {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
+    /// Regimes over mass, damping, stiffness and step, with a page to look through
+    Atlas(Wanted),
+    /// Work against precision of every scheme, with tables and a page; takes a few minutes
+    Integrators(Wanted),
+    /// Say what is known of a scene before it moves: frequencies, largest steps, time to rest
+    Certificate {
+        /// A shipped scene's name, or a file
+        scene: String,
+    },
     /// Make every figure, from nothing, with an index page to look through
     Figures(Figures),
+}
+
+#[derive(Debug, Args)]
+struct Wanted {
+    /// Where drawings, tables and index.html go
+    #[arg(long, value_name = "DIR", default_value = "figures")]
+    out: PathBuf,
+    /// Only this one; may be given more than once
+    #[arg(long, value_name = "ID")]
+    only: Vec<String>,
 }
 
 #[derive(Debug, Args)]
@@ -72,6 +93,9 @@ fn main() -> ExitCode {
             Ok(true)
         }
         What::Run { id, out } => run(&id, out.as_deref()),
+        What::Atlas(wanted) => one_by_one(ATLAS, &wanted),
+        What::Integrators(wanted) => one_by_one(INTEGRATORS, &wanted),
+        What::Certificate { scene } => certificate(&scene),
         What::Figures(asked) => figures(&asked),
     };
     match result {
@@ -111,6 +135,61 @@ fn run(id: &str, out: Option<&Path>) -> Result<bool, SandboxError> {
         eprintln!("written into {}", folder.path().display());
     }
     Ok(done.holds())
+}
+
+/// Experiments of one kind, one after the other so that times are not disturbed, with their page.
+fn one_by_one(all: &[&'static Experiment], wanted: &Wanted) -> Result<bool, SandboxError> {
+    let folder = Folder::open(&wanted.out)?;
+    let asked = |id: &str| wanted.only.is_empty() || wanted.only.iter().any(|only| only == id);
+    let chosen: Vec<_> = all.iter().copied().filter(|one| asked(one.id)).collect();
+    let bar = ProgressBar::new(u64::try_from(chosen.len()).unwrap_or(0));
+    if let Ok(style) =
+        ProgressStyle::with_template("{spinner} {bar:40} {pos}/{len} {msg} {elapsed}")
+    {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(std::time::Duration::from_millis(200));
+    let mut done = Vec::new();
+    for experiment in chosen {
+        bar.set_message(experiment.id);
+        let one = perform(experiment)?;
+        bar.suspend(|| {
+            println!("{} ({:.1} s)", experiment.title, one.took.as_secs_f64());
+            tell(&one);
+        });
+        write_drawings(&folder, &one)?;
+        write_tables(&folder, &one)?;
+        bar.inc(1);
+        done.push(one);
+    }
+    bar.finish_and_clear();
+    folder.write("index.html", page(&done).as_bytes())?;
+    println!("open {}", folder.path().join("index.html").display());
+    Ok(done.iter().all(Done::holds))
+}
+
+/// What a scene's snake can be said to do, from its start and in its picture.
+fn certificate(name: &str) -> Result<bool, SandboxError> {
+    let path = Path::new(name);
+    let scene = if path.extension().is_some() || path.components().count() > 1 {
+        Scene::load(path)
+    } else {
+        Scene::named(name)
+    };
+    let scene = scene.map_err(|error| SandboxError::Refused {
+        experiment: "certificate",
+        reason: error.to_string(),
+    })?;
+    println!("{}", scene.title);
+    print!("{}", Certificate::of(&scene.snake, None));
+    let here = Certificate::of(&scene.snake, Some(&scene.start));
+    if scene.snake.world().image().is_some() {
+        println!(
+            "at the start alone, highest frequency of the image: {:.6}",
+            here.image
+        );
+    }
+    Ok(true)
 }
 
 fn tell(done: &Done) {

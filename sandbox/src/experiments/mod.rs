@@ -2,6 +2,7 @@
 
 pub(crate) mod angle;
 pub(crate) mod apple;
+pub(crate) mod atlas;
 pub(crate) mod ball;
 pub(crate) mod corners;
 pub(crate) mod damping;
@@ -10,6 +11,7 @@ pub(crate) mod disc;
 pub(crate) mod ends;
 pub(crate) mod energy;
 pub(crate) mod force_field;
+pub(crate) mod integrators;
 pub(crate) mod matrix;
 mod motion;
 mod pixels;

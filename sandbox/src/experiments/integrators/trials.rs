@@ -1,0 +1,232 @@
+//! One experiment a problem: scan every scheme, note what it takes to come within 1e-3 and 1e-6.
+
+use super::chart::draw;
+use super::judge;
+use super::trial::Trial;
+use super::{apple, edge, least_steps, ring, scan, wall};
+use crate::{Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance};
+use integrator::Scheme;
+
+/// Distances from the truth that are asked for, px.
+pub(super) const TARGETS: [(f64, &str); 2] = [(1e-3, "1e-3"), (1e-6, "1e-6")];
+
+/// Every scheme that solves the equation of motion; the gradient flow solves another one.
+pub(super) fn schemes() -> impl Iterator<Item = Scheme> {
+    Scheme::ALL
+        .iter()
+        .copied()
+        .filter(|&scheme| scheme != Scheme::GradientFlow)
+}
+
+fn try_all(trial: Result<Trial, SandboxError>) -> Result<Record, SandboxError> {
+    let mut trial = trial?;
+    let mut record = Record::default();
+    if let Some((_, end)) = trial.truth.last() {
+        let moved = end.iter().zip(&trial.start.x).map(|(a, b)| a.distance(*b));
+        record.note(
+            "way made by the fastest node",
+            moved.fold(0.0, f64::max),
+            "px",
+            LOOSE,
+        );
+    }
+    for scheme in schemes() {
+        let seen = scan(&mut trial, scheme);
+        let name = scheme.name();
+        for (target, words) in TARGETS {
+            let found = least_steps(&mut trial, scheme, &seen, target);
+            let value = |read: fn(&super::Effort) -> f64| found.as_ref().map_or(f64::NAN, read);
+            record.note(
+                format!("{name}: steps to {words}"),
+                value(|run| super::effort::to_real(run.steps)),
+                "",
+                LOOSE,
+            );
+            record.note(
+                format!("{name}: forces to {words}"),
+                value(|run| super::effort::to_real(run.forces)),
+                "",
+                LOOSE,
+            );
+            record.note(
+                format!("{name}: time to {words}"),
+                value(|run| 1e6 * run.seconds),
+                "µs",
+                LOOSE,
+            );
+            record.note(
+                format!("{name}: time of its steps to {words}"),
+                value(|run| 1e6 * run.stepping),
+                "µs",
+                LOOSE,
+            );
+        }
+        let column = |read: fn(&super::Effort) -> f64| seen.iter().map(read).collect::<Vec<f64>>();
+        record.keep(
+            Table::raw(name)
+                .with(
+                    "steps",
+                    "",
+                    LOOSE,
+                    column(|run| super::effort::to_real(run.steps)),
+                )
+                .with(
+                    "forces",
+                    "",
+                    LOOSE,
+                    column(|run| super::effort::to_real(run.forces)),
+                )
+                .with("time", "µs", LOOSE, column(|run| 1e6 * run.seconds))
+                .with("error", "px", LOOSE, column(|run| run.error)),
+        );
+    }
+    let limit = Scheme::Report
+        .step_limit(&*trial.system)
+        .unwrap_or(f64::NAN);
+    record.note(
+        "report: steps at its largest stable step",
+        (trial.until / limit).ceil(),
+        "",
+        LOOSE,
+    );
+    Ok(record)
+}
+
+/// Nothing here is compared with `expected/`.
+const LOOSE: Tolerance = Tolerance::Relative(1.0);
+
+const EXACT_IN_ONE: Claim = Claim {
+    says: "the exact scheme is within 1e-9 in one step",
+    source: "theory",
+    judge: |r| {
+        let errors = r.column(Scheme::Etd2.name(), "error")?;
+        let error = errors.first().copied().unwrap_or(f64::NAN);
+        Ok(Finding::new(
+            error < 1e-9,
+            format!("{error:.1e} px after one step of 5 s"),
+        ))
+    },
+};
+
+const CENTRED: Claim = Claim {
+    says: "centred damping needs fewer forces than the report's scheme for 1e-3",
+    source: "D18, D21",
+    judge: |r| judge::fewer(r, "leapfrog", "report", "1e-3"),
+};
+
+const CHOSEN: Claim = Claim {
+    says: "where a force has a kink, steps chosen by their error are the cheapest way to 1e-6",
+    source: "theory",
+    judge: |r| judge::fewer(r, "dormand-prince", "rk4", "1e-6"),
+};
+
+const HUNDREDTH: Claim = Claim {
+    says: "1e-3 in a hundredth of the steps of the report's scheme at its largest stable step",
+    source: "theory",
+    judge: |r| judge::share_of_report(r, 1e-2),
+};
+
+const THOUSANDTH: Claim = Claim {
+    says: "1e-3 in a thousandth of the steps of the report's scheme at its largest stable step",
+    source: "theory",
+    judge: |r| judge::share_of_report(r, 1e-3),
+};
+
+const LEAPFROG_FIRST: Claim = Claim {
+    says: "centred damping needs fewer forces than the report's scheme for 1e-6",
+    source: "D18, D21",
+    judge: |r| judge::fewer(r, "leapfrog", "report", "1e-6"),
+};
+
+const IMPLICIT_FIRST: Claim = Claim {
+    says: "one solve a step needs fewer steps than any explicit scheme of order 2 or less",
+    source: "theory",
+    judge: |r| judge::fewer(r, "newmark", "leapfrog", "1e-3"),
+};
+
+const RING: &str = "A damped ring of 200 nodes in gravity, bent in waves of 2, 3, 5 and 10: μ = γ = ω₀ = g = 1, 5 s. Truth: \
+                    each wave's own closed formula.";
+const EDGE: &str = "A light stiff ring (μ = 0.01, γ = ω₀ = 1) caught by a smooth round edge, 5 s, judged half way and \
+                    at the end. Truth: Dormand and Prince at 1e-12.";
+
+type Run = fn() -> Result<Record, SandboxError>;
+
+const fn problem(
+    id: &'static str,
+    title: &'static str,
+    question: &'static str,
+    claims: &'static [Claim],
+    run: Run,
+) -> Experiment {
+    Experiment {
+        id,
+        title,
+        place: "§3.4",
+        question,
+        claims,
+        run,
+        draw,
+    }
+}
+
+pub(crate) const RING_2: Experiment = problem(
+    "ring-1e2",
+    "Ring, stiffness ratio 1e2",
+    RING,
+    &[EXACT_IN_ONE, LEAPFROG_FIRST],
+    || try_all(ring(1e2, 1.0)),
+);
+
+pub(crate) const RING_4: Experiment = problem(
+    "ring-1e4",
+    "Ring, stiffness ratio 1e4",
+    RING,
+    &[EXACT_IN_ONE, LEAPFROG_FIRST],
+    || try_all(ring(1e4, 1.0)),
+);
+
+pub(crate) const RING_6: Experiment = problem(
+    "ring-1e6",
+    "Ring, stiffness ratio 1e6",
+    RING,
+    &[EXACT_IN_ONE, LEAPFROG_FIRST, IMPLICIT_FIRST],
+    || try_all(ring(1e6, 1.0)),
+);
+
+pub(crate) const EDGE_4: Experiment = problem(
+    "edge-1e4",
+    "Ring on an edge, stiffness ratio 1e4",
+    EDGE,
+    &[HUNDREDTH],
+    || try_all(edge(1e4)),
+);
+
+pub(crate) const EDGE_6: Experiment = problem(
+    "edge-1e6",
+    "Ring on an edge, stiffness ratio 1e6",
+    EDGE,
+    &[THOUSANDTH],
+    || try_all(edge(1e6)),
+);
+
+pub(crate) const WALL: Experiment = problem(
+    "wall",
+    "The rigid ball against a stiff wall",
+    "The ball of figure 2.4 flies into a wall that is a spring, and back: 7 s, 40 nodes. Judged half way and at the \
+     end; truth: Dormand and Prince at 1e-12. Where a node meets the wall the force has a kink.",
+    &[CENTRED, CHOSEN],
+    wall_run,
+);
+
+fn wall_run() -> Result<Record, SandboxError> {
+    try_all(wall())
+}
+
+pub(crate) const APPLE: Experiment = problem(
+    "apple",
+    "The apple",
+    "The snake of figures 4.6 to 4.8 in its picture, 80 nodes, the first 20 s. Judged half way and at the end; truth: \
+     Dormand and Prince at 1e-11. Between pixels the force is bilinear: kinked at every pixel's border.",
+    &[LEAPFROG_FIRST],
+    || try_all(apple()),
+);
