@@ -18,8 +18,9 @@ pub(crate) const MOST_PIXELS: u64 = 1 << 27;
 /// Bytes a pixel may take in a file or a decoder: four channels of floats.
 pub(crate) const MOST_PIXEL_BYTES: u64 = 16;
 
-/// Pixels a drawn picture may have, 4096 × 4096: drawn in about a second.
-pub(crate) const MOST_DRAWN: u64 = 1 << 24;
+/// Pixels a drawn picture may have, 2048 × 2048: as large as any experiment asks for, and a few bytes
+/// of text cost a second at most.
+pub(crate) const MOST_DRAWN: u64 = 1 << 22;
 
 /// Pixels along the shorter side of a picture: its edges are found by masks of 3 × 3.
 pub(crate) const LEAST_SIDE: usize = 3;
