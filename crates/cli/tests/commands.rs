@@ -179,6 +179,8 @@ fn a_circle_drawn_off_a_disc_is_pulled_onto_its_border() {
         assert!(answer.err.contains("came to rest after"), "{answer:?}");
         let found = Contour::load(&folder.path("found.csv")).unwrap();
         assert_eq!(found.closed, Some(true));
+        let area = scene::elastic::signed_area(&found.points);
+        assert!(area * turn > 0.0, "{name} keeps its winding: {area}");
         // a Gaussian of σ pulls the edge of a disc inwards by about σ²/(2 r), 0.2 pixels here, the
         // tension of a start too large outwards again
         let off = off(&found, center, radius);
