@@ -182,8 +182,17 @@ impl ForceField {
 
     /// [`ForceField::sample`] at many points: the shorter of the two slices says how many.
     pub fn sample_into(&self, points: &[DVec2], rule: Interpolation, forces: &mut [DVec2]) {
-        for (&p, force) in points.iter().zip(forces) {
-            *force = self.sample(p, rule);
+        let (dim, pairs) = (self.dim(), points.iter().zip(forces));
+        if let Forces::Double(grid) = &self.forces
+            && let Some(flat) = grid.as_slice()
+            && rule == Interpolation::Bilinear
+            && dim.0 > 1
+            && dim.1 > 1
+        {
+            // where the forces are is asked once, and two looks a point are enough
+            pairs.for_each(|(&p, force)| *force = sample::bilinear_flat(flat, dim, p));
+        } else {
+            pairs.for_each(|(&p, force)| *force = self.sample(p, rule));
         }
     }
 

@@ -1,7 +1,7 @@
 //! A body in a world: the system that the schemes move.
 
 use banded::{Operator, Pentadiagonal};
-use elastic::Material;
+use elastic::{End, Material, Topology};
 use field::Interpolation;
 use glam::{DMat2, DVec2};
 use integrator::{Fault, State, System, Touch};
@@ -16,6 +16,9 @@ pub struct Snake {
     /// Weights of the nodes in the frame's origin; they sum to 1.
     weights: Vec<f64>,
     held: Vec<bool>,
+    any_held: bool,
+    /// Whether `−K e` has a sum, so that the frame's reaction is more than rounding.
+    pushes: bool,
     /// The parameters as they are at the time last asked for.
     material: Material,
     mass: Vec<f64>,
@@ -41,8 +44,11 @@ impl Snake {
         let factors = body.schedules.at(0.0);
         let (material, mass, damping) = scaled(&body, factors);
         let stiffness = operator(&body, &material, &weights, &held)?;
+        let pushes = pushes(&body, &material);
         let (deformation, scratch) = (vec![DVec2::ZERO; n], vec![DVec2::ZERO; n]);
         Ok(Self {
+            any_held: held.contains(&true),
+            pushes,
             scratch,
             body,
             world,
@@ -178,6 +184,20 @@ fn scaled(body: &Body, [tether, tension, rigidity, mass, damping]: [f64; 5]) -> 
     )
 }
 
+/// Whether the reaction of the frame has anything to take out of `−K e`.
+///
+/// The sum of `−K e` is `−Σ kⱼ eⱼ` with `k = K 1`. Closed or with natural ends, k is the tether
+/// alone; where that and the mass are the same everywhere, the sum is that of e, which is zero
+/// about the mean.
+fn pushes(body: &Body, material: &Material) -> bool {
+    let natural = match body.topology {
+        Topology::Closed => true,
+        Topology::Open { head, tail } => head != End::Anchored && tail != End::Anchored,
+    };
+    let even = body.frame.center == Center::Mean || body.mass.is_uniform();
+    body.frame.reaction && !(natural && even && material.tether.is_uniform())
+}
+
 type Parameters = (Material, Vec<f64>, Vec<f64>);
 
 /// The operator `Pᵀ K P`, held nodes taken out: K, and a correction of rank two for the frame.
@@ -261,6 +281,7 @@ impl System for Snake {
         if let Ok(stiffness) = operator(&self.body, &material, &self.weights, &self.held) {
             self.stiffness = stiffness;
         }
+        self.pushes = pushes(&self.body, &material);
         (self.material, self.mass, self.damping, self.factors) = (material, mass, damping, factors);
         true
     }
@@ -276,15 +297,17 @@ impl System for Snake {
             force,
         );
         self.deformation = e;
-        if self.body.frame.reaction {
+        if self.pushes {
             let total: DVec2 = force.iter().copied().sum();
             for (f, &w) in force.iter_mut().zip(&self.weights) {
                 *f -= total * w;
             }
         }
-        for (f, &held) in force.iter_mut().zip(&self.held) {
-            if held {
-                *f = DVec2::ZERO;
+        if self.any_held {
+            for (f, &held) in force.iter_mut().zip(&self.held) {
+                if held {
+                    *f = DVec2::ZERO;
+                }
             }
         }
     }
