@@ -14,6 +14,7 @@ pub(crate) mod force_field;
 pub(crate) mod integrators;
 pub(crate) mod matrix;
 mod motion;
+mod over_time;
 mod pixels;
 pub(crate) mod profiles;
 pub(crate) mod signal;

@@ -1,9 +1,10 @@
 //! A closed snake around the same apple.
 
-use super::draw::{animation, frame_panel, over_picture, over_time, snake_on};
+use super::draw::{animation, frame_panel, over_picture, snake_on};
 use super::story::{Story, Truth, share, top, truth_of};
 use crate::draw::{Axis, Color, Figure, Layer, Line, Panel};
 use crate::experiments::motion::{Frames, pair};
+use crate::experiments::over_time::over_time;
 use crate::{
     Artefact, Body, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real,
 };

@@ -2,7 +2,8 @@
 
 use super::story::{Truth, truth_of};
 use crate::draw::{Animation, Axis, Color, Layer, Line, Panel, Picture, Shot, Stroke};
-use crate::experiments::motion::{Frames, pair, range};
+use crate::experiments::motion::{Frames, pair};
+use crate::experiments::over_time::over_time;
 use crate::{Record, SandboxError, real};
 use ndarray::Array2;
 
@@ -169,28 +170,15 @@ pub(crate) fn all_over(
     Ok(curves_on(panel, &frames, times, closed))
 }
 
-/// Lines of one table over time.
-pub(crate) fn over_time(
-    record: &Record,
-    table: &str,
-    columns: &[(&str, &str, Color)],
-    title: &str,
-    label: &str,
-) -> Result<Panel, SandboxError> {
-    let mut lines = Vec::new();
-    let mut values = Vec::new();
-    for (column, name, color) in columns {
-        let points = record.points(table, "t", column)?;
-        values.extend(points.iter().map(|p| p.1));
-        lines.push(Line::new(points, *color).named(*name).weighing(0.9));
-    }
-    let end = record.column(table, "t")?.last().copied().unwrap_or(1.0);
-    let (low, mut high) = range(values, 0.06);
-    if columns.iter().any(|(_, name, _)| !name.is_empty()) {
-        high += 0.3 * (high - low); // room for the legend
-    }
-    let panel = Panel::new(title, Axis::new("t", 0.0, end), Axis::new(label, low, high));
-    Ok(lines.into_iter().fold(panel, Panel::with))
+/// How high the top stands, upright as in the picture, and how much of the curve is on the contour.
+pub(crate) fn height_and_stuck(record: &Record) -> Result<(Panel, Panel), SandboxError> {
+    let top = [("top y", "", Color::BLUE)];
+    let mut height = over_time(record, "fine", &top, "height of the top", "y / px")?;
+    (height.y.from, height.y.to) = (height.y.to, height.y.from);
+    let part = [("stuck", "", Color::GREEN)];
+    let title = "part stuck on the contour";
+    let stuck = over_time(record, "fine", &part, title, "of the nodes")?;
+    Ok((height, stuck))
 }
 
 /// Times as upright lines with letters, to find the frames again.

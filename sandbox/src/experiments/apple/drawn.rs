@@ -1,8 +1,9 @@
 //! The story of §4.3 on a drawn picture, by the report's own rules from end to end.
 
-use super::draw::{animation, frame_panel, marked, over_time};
+use super::draw::{animation, frame_panel, height_and_stuck, marked};
 use super::story::{Story, Truth, share, top};
 use crate::draw::{Color, Figure};
+use crate::experiments::over_time::over_time;
 use crate::{Artefact, Body, Claim, Experiment, Finding, Record, SandboxError, Tolerance, real};
 use glam::DVec2;
 
@@ -147,21 +148,7 @@ fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
         .zip("abcdef".chars())
         .map(|(&t, letter)| frame_panel(record, &letter.to_string(), t, false))
         .collect::<Result<Vec<_>, SandboxError>>()?;
-    let mut height = over_time(
-        record,
-        "fine",
-        &[("top y", "", Color::BLUE)],
-        "height of the top",
-        "y / px",
-    )?;
-    (height.y.from, height.y.to) = (height.y.to, height.y.from);
-    let stuck = over_time(
-        record,
-        "fine",
-        &[("stuck", "", Color::GREEN)],
-        "part stuck on the contour",
-        "of the nodes",
-    )?;
+    let (height, stuck) = height_and_stuck(record)?;
     let energy = over_time(
         record,
         "energy",

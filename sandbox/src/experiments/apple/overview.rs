@@ -1,9 +1,10 @@
 //! The whole story of Figures 4.6 to 4.8 on one page, and in motion.
 
-use super::draw::{all_over, animation, marked, over_time, window};
+use super::draw::{all_over, animation, height_and_stuck, marked, window};
 use super::story::top;
 use super::{LETTERS, MOMENTS, PLACE, tell};
 use crate::draw::{Color, Corner, Figure};
+use crate::experiments::over_time::over_time;
 use crate::{Artefact, Body, Claim, Experiment, Finding, Record, SandboxError, Tolerance, real};
 
 const ID: &str = "sec-4-3-apple";
@@ -139,21 +140,7 @@ fn run() -> Result<Record, SandboxError> {
 fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
     let mut picture = all_over(record, &MOMENTS, false)?;
     picture.share = 1.15;
-    let mut height = over_time(
-        record,
-        "fine",
-        &[("top y", "", Color::BLUE)],
-        "height of the top",
-        "y / px",
-    )?;
-    (height.y.from, height.y.to) = (height.y.to, height.y.from);
-    let stuck = over_time(
-        record,
-        "fine",
-        &[("stuck", "", Color::GREEN)],
-        "part stuck on the contour",
-        "of the nodes",
-    )?;
+    let (height, stuck) = height_and_stuck(record)?;
     let distance = over_time(
         record,
         "fine",

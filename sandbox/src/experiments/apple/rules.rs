@@ -1,9 +1,10 @@
 //! The apple under the report's rules, and what keeps it from letting go (D11).
 
 use super::PLACE;
-use super::draw::{frame_panel, over_time};
+use super::draw::frame_panel;
 use super::story::{Story, Truth, share, top};
 use crate::draw::{Color, Corner, Figure, Line};
+use crate::experiments::over_time::over_time;
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance};
 
 const ID: &str = "sec-4-3-report";

@@ -3,6 +3,7 @@
 use super::course::RECOVERED;
 use crate::draw::{Animation, Axis, Color, Corner, Figure, Layer, Line, Panel, Shot, Stroke};
 use crate::experiments::motion::{Frames, range};
+use crate::experiments::over_time::over_time;
 use crate::{Artefact, Body, Record, SandboxError};
 
 /// Time between two snapshots, in seconds.
@@ -85,34 +86,16 @@ fn close_up(record: &Record) -> Result<Panel, SandboxError> {
     Ok(snapshots(panel, &frames, &chosen, 0.8))
 }
 
-/// A quantity over time.
-pub(crate) fn over_time(
+/// A quantity over time, which is in seconds here.
+fn over_seconds(
     record: &Record,
     table: &str,
     columns: &[(&str, &str, Color)],
     title: &str,
     label: &str,
 ) -> Result<Panel, SandboxError> {
-    let mut values = Vec::new();
-    let mut lines = Vec::new();
-    for (column, name, color) in columns {
-        let points = record.points(table, "t", column)?;
-        values.extend(points.iter().map(|p| p.1));
-        lines.push(Line::new(points, *color).named(*name).weighing(0.9));
-    }
-    let end = record.column(table, "t")?.last().copied().unwrap_or(1.0);
-    let (low, mut high) = range(values, 0.06);
-    if columns.iter().any(|(_, name, _)| !name.is_empty()) {
-        high += 0.3 * (high - low); // room for the legend
-    }
-    let mut panel = Panel::new(
-        title,
-        Axis::new("t / s", 0.0, end),
-        Axis::new(label, low, high),
-    );
-    for line in lines {
-        panel = panel.with(line);
-    }
+    let mut panel = over_time(record, table, columns, title, label)?;
+    panel.x.label = "t / s".to_owned();
     Ok(panel)
 }
 
@@ -120,7 +103,7 @@ pub(crate) fn over_time(
 pub(crate) fn figure(record: &Record, title: &str) -> Result<Figure, SandboxError> {
     let mut seen = report_panel(record, "a snapshot every 0.5 s, from blue to red")?;
     seen.share = 1.3;
-    let shape = over_time(
+    let shape = over_seconds(
         record,
         "fine",
         &[("deformation", "its own", Color::BLUE)],
@@ -132,14 +115,14 @@ pub(crate) fn figure(record: &Record, title: &str) -> Result<Figure, SandboxErro
         .dashed()
         .weighing(0.6)
         .named("recovered below 0.04");
-    let area = over_time(
+    let area = over_seconds(
         record,
         "fine",
         &[("area", "", Color::GREEN)],
         "area",
         "of the start",
     )?;
-    let energy = over_time(
+    let energy = over_seconds(
         record,
         "energy",
         &[
