@@ -8,22 +8,7 @@
 
 mod common;
 
-use common::{Folder, scene};
-
-/// Run a scene of this text, from a file and from standard input.
-fn refused(text: impl AsRef<[u8]>, says: &[&str]) {
-    let folder = Folder::new();
-    folder.write("s.toml", text.as_ref());
-    let outputs = ["--record", "r.jsonl", "--out", "o.csv"];
-    folder.refused(&[&["run", "s.toml"][..], &outputs].concat(), says);
-    folder.refused_reading(&[&["run", "-"][..], &outputs].concat(), text, says);
-}
-
-fn changed(line: &str, instead: &str, says: &[&str]) {
-    refused(scene(&[(line, instead)]), says);
-}
-
-const CIRCLE: &str = "start = { circle = { center = [30.0, 30.0], radius = 5.0 } }";
+use common::{CIRCLE, Folder, changed, refused, scene};
 
 #[test]
 fn a_text_that_is_no_scene_is_refused_by_its_line() {

@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use crate::{SchemeError, System};
 
-/// The most nodes whose eigenvectors are computed: ten seconds and 8 MB.
+/// The most nodes whose eigenvectors are computed: 1.7 seconds (measured, one busy core) and 8 MiB.
 pub(crate) const MOST: usize = 1024;
 
 /// γ/μ of two nodes counts as the same within this, relative: rounding of profiles and schedules.

@@ -191,3 +191,20 @@ fn crc(bytes: &[u8]) -> u32 {
         })
     })
 }
+
+/// Run a scene of this text, from a file and from standard input.
+pub(crate) fn refused(text: impl AsRef<[u8]>, says: &[&str]) {
+    let folder = Folder::new();
+    folder.write("s.toml", text.as_ref());
+    let outputs = ["--record", "r.jsonl", "--out", "o.csv"];
+    folder.refused(&[&["run", "s.toml"][..], &outputs].concat(), says);
+    folder.refused_reading(&[&["run", "-"][..], &outputs].concat(), text, says);
+}
+
+/// The common scene with one line changed is refused.
+pub(crate) fn changed(line: &str, instead: &str, says: &[&str]) {
+    refused(scene(&[(line, instead)]), says);
+}
+
+/// The line of the common scene that gives its start.
+pub(crate) const CIRCLE: &str = "start = { circle = { center = [30.0, 30.0], radius = 5.0 } }";
