@@ -79,7 +79,7 @@ pub fn elastic_energy(
     for bend in topology.outer_bends(n) {
         let [a, b, c] = bend.nodes.map(at);
         let bent = (c - b) - (b - a);
-        rigidity += w2.at(bend.weight) * (bent * bent);
+        rigidity += (bend.share * w2.at(bend.weight)) * (bent * bent);
     }
     let half = 0.5 * spacing;
     let per_h2 = 1.0 / (spacing * spacing);

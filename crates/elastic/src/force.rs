@@ -198,6 +198,8 @@ impl<A: Fn(usize) -> f64, B: Fn(usize) -> f64, C: Fn(usize) -> f64> Weights<A, B
         };
         let (first_moment, flux_in) = match head {
             End::Free | End::Pinned => (DVec2::ZERO, DVec2::ZERO),
+            // half the moment of a bend between mirror images, taken up by the vice on both sides
+            End::Clamped => (2.0 * w2(0) * first_edge, DVec2::ZERO),
             End::Anchored => {
                 let edge = e[0];
                 let moment = w2(0) * (first_edge - edge);
@@ -206,6 +208,7 @@ impl<A: Fn(usize) -> f64, B: Fn(usize) -> f64, C: Fn(usize) -> f64> Weights<A, B
         };
         let (last_moment, flux_out) = match tail {
             End::Free | End::Pinned => (DVec2::ZERO, DVec2::ZERO),
+            End::Clamped => (-2.0 * w2(last) * last_edge, DVec2::ZERO),
             End::Anchored => {
                 let edge = -e[last];
                 let moment = w2(last) * (edge - last_edge);

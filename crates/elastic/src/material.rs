@@ -19,7 +19,8 @@ pub struct Material {
     pub tension: Profile,
     /// ω₂: resists bending, like a thin plate; `rigidity[i]` acts on the bend at node i. M L⁴ T⁻².
     ///
-    /// The first and last value of an open curve act only if that end is [anchored](crate::End::Anchored).
+    /// The first and last value of an open curve act only if that end is [anchored](crate::End::Anchored) or
+    /// [clamped](crate::End::Clamped).
     #[doc(alias = "w2")]
     #[doc(alias = "beta")]
     pub rigidity: Profile,

@@ -6,8 +6,8 @@
 //!
 //! with one row of D₁ for each edge that exists and one row of D₂ for each bend. Whatever the ends and
 //! the densities, K is then symmetric and never negative, and the force −K e is minus the gradient of
-//! the energy per arc length. K does not know of pinned nodes: whoever holds them takes their rows and
-//! columns out.
+//! the energy per arc length. K does not know of pinned and clamped nodes: whoever holds them takes their rows
+//! and columns out.
 
 use crate::{Bound, ElasticError, Material, Profile, Topology};
 use banded::Pentadiagonal;
@@ -23,7 +23,7 @@ use std::ops::RangeInclusive;
 ///
 /// Inside, a row of uniform densities reads `ω₂/h⁴, −ω₁/h² − 4ω₂/h⁴, ω₀ + 2ω₁/h² + 6ω₂/h⁴, …`, report
 /// Eq. 3.2. With both ends [anchored](crate::End::Anchored) it is the matrix of the report's program
-/// (D3). [Pinned](crate::End::Pinned) ends are not masked here: see
+/// (D3). [Pinned](crate::End::Pinned) and [clamped](crate::End::Clamped) ends are not masked here: see
 /// [`Topology::held`].
 ///
 /// # Errors
@@ -52,7 +52,7 @@ pub fn stiffness(
     for bend in topology.bends(n) {
         add(
             &mut k,
-            material.rigidity.at(bend.weight) * per_h4,
+            bend.share * material.rigidity.at(bend.weight) * per_h4,
             bend.nodes,
             [1.0, -2.0, 1.0],
         );

@@ -3,7 +3,8 @@
 //! This is the one place where open and closed curves part. Everything that needs to know which edges
 //! and bends a curve has asks [`Topology`] here; the energy and the matrix are sums over the answer.
 //!
-//! It cannot say yet that an end keeps its direction (a clamped angle).
+//! An end that slides along a line is a matter of what may move, not of which differences exist: see
+//! [`Hold`](crate::Hold). Ends that grow it cannot say yet.
 
 use crate::ElasticError;
 
@@ -22,6 +23,29 @@ pub enum End {
     /// For energy, force and matrix the same as [`Free`](Self::Free); whoever moves the nodes leaves
     /// those of [`Topology::held`] where they are.
     Pinned,
+    /// A vice: the node may not move, and the curve leaves it in the direction it has at rest.
+    ///
+    /// The node beyond it is the mirror image of the node before it, so that `∂e/∂s = 0` there:
+    ///
+    /// ```text
+    /// e[−1] = e[1],   ∂²e/∂s² = 2 (e[1] − e[0]) / h²   over half a spacing
+    /// ```
+    ///
+    /// Held like a pinned node ([`Topology::held`]). The forces still sum to zero, and a shift costs
+    /// nothing. The direction is kept as far as the rigidity of the end node goes; with none the end is
+    /// pinned. Second order in the spacing.
+    Clamped,
+}
+
+impl End {
+    /// How many bends there are at this end's node and beyond it.
+    const fn bends_beyond(self) -> usize {
+        match self {
+            Self::Free | Self::Pinned => 0,
+            Self::Clamped => 1,
+            Self::Anchored => 2,
+        }
+    }
 }
 
 /// Closed, or open with two ends.
@@ -49,6 +73,8 @@ pub(crate) struct Edge {
 pub(crate) struct Bend {
     /// Which rigidity it takes.
     pub(crate) weight: usize,
+    /// How much of a spacing it stands for: half, where the other half is a mirror image.
+    pub(crate) share: f64,
     pub(crate) nodes: [Option<usize>; 3],
 }
 
@@ -83,12 +109,13 @@ impl Topology {
         }
     }
 
-    /// Which of `n` nodes may not move: the pinned ends.
+    /// Which of `n` nodes may not move: the pinned and the clamped ends.
     #[must_use]
     pub fn held(self, n: usize) -> Vec<bool> {
+        let held = |end| matches!(end, End::Pinned | End::Clamped);
         let (head, tail) = match self {
             Self::Closed => (false, false),
-            Self::Open { head, tail } => (head == End::Pinned, tail == End::Pinned),
+            Self::Open { head, tail } => (held(head), held(tail)),
         };
         (0..n)
             .map(|i| (head && i == 0) || (tail && i + 1 == n))
@@ -147,27 +174,23 @@ impl Topology {
     }
 
     const fn edge_range(self, n: usize) -> (usize, usize) {
-        let (head, tail) = self.anchored();
-        let first = if head { BEFORE - 1 } else { BEFORE };
-        (
-            first,
-            if tail || self.is_closed() {
-                BEFORE + n
-            } else {
-                BEFORE + n - 1
-            },
-        )
+        match self {
+            Self::Closed => (BEFORE, BEFORE + n),
+            Self::Open { head, tail } => (
+                BEFORE - matches!(head, End::Anchored) as usize,
+                BEFORE + n - 1 + matches!(tail, End::Anchored) as usize,
+            ),
+        }
     }
 
     const fn bend_range(self, n: usize) -> (usize, usize) {
-        if self.is_closed() {
-            return (BEFORE, BEFORE + n);
+        match self {
+            Self::Closed => (BEFORE, BEFORE + n),
+            Self::Open { head, tail } => (
+                BEFORE + 1 - head.bends_beyond(),
+                BEFORE + n - 1 + tail.bends_beyond(),
+            ),
         }
-        let (head, tail) = self.anchored();
-        (
-            if head { BEFORE - 1 } else { BEFORE + 1 },
-            if tail { BEFORE + n + 1 } else { BEFORE + n - 1 },
-        )
     }
 
     fn edge(self, k: usize, n: usize) -> Edge {
@@ -178,18 +201,19 @@ impl Topology {
     }
 
     fn bend(self, k: usize, n: usize) -> Bend {
+        let mut nodes = [self.node(k - 1, n), self.node(k, n), self.node(k + 1, n)];
+        let mut share = 1.0;
+        if let Self::Open { head, tail } = self {
+            if k == BEFORE && head == End::Clamped {
+                (nodes[0], share) = (nodes[2], 0.5);
+            } else if k + 1 == BEFORE + n && tail == End::Clamped {
+                (nodes[2], share) = (nodes[0], 0.5);
+            }
+        }
         Bend {
             weight: self.weight(k, n),
-            nodes: [self.node(k - 1, n), self.node(k, n), self.node(k + 1, n)],
-        }
-    }
-
-    const fn anchored(self) -> (bool, bool) {
-        match self {
-            Self::Closed => (false, false),
-            Self::Open { head, tail } => {
-                (matches!(head, End::Anchored), matches!(tail, End::Anchored))
-            }
+            share,
+            nodes,
         }
     }
 
@@ -220,13 +244,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_pinned_ends_are_held() {
+    fn only_pinned_and_clamped_ends_are_held() {
         let one = Topology::Open {
             head: End::Pinned,
             tail: End::Anchored,
         };
         assert_eq!(one.held(4), [true, false, false, false]);
         assert_eq!(one.reversed().held(4), [false, false, false, true]);
+        let vice = Topology::Open {
+            head: End::Free,
+            tail: End::Clamped,
+        };
+        assert_eq!(vice.held(3), [false, false, true]);
         assert_eq!(Topology::open(End::Free).held(3), [false; 3]);
         assert_eq!(Topology::Closed.held(5), [false; 5]);
     }
@@ -238,6 +267,7 @@ mod tests {
             (Topology::open(End::Free), 6, 5),
             (Topology::open(End::Pinned), 6, 5),
             (Topology::open(End::Anchored), 8, 9),
+            (Topology::open(End::Clamped), 6, 7),
             (
                 Topology::Open {
                     head: End::Anchored,
@@ -270,6 +300,23 @@ mod tests {
     }
 
     #[test]
+    fn the_bend_at_a_clamped_end_sees_the_next_node_twice_and_counts_half() {
+        let bends: Vec<_> = Topology::open(End::Clamped)
+            .bends(4)
+            .map(|b| (b.weight, b.share, b.nodes.map(Option::unwrap)))
+            .collect();
+        assert_eq!(
+            bends,
+            [
+                (0, 0.5, [1, 0, 1]),
+                (1, 1.0, [0, 1, 2]),
+                (2, 1.0, [1, 2, 3]),
+                (3, 0.5, [2, 3, 2]),
+            ]
+        );
+    }
+
+    #[test]
     fn outer_edges_and_bends_are_those_not_in_the_row() {
         for topology in [
             Topology::Closed,
@@ -283,6 +330,11 @@ mod tests {
                 head: End::Free,
                 tail: End::Anchored,
             },
+            Topology::Open {
+                head: End::Clamped,
+                tail: End::Anchored,
+            },
+            Topology::open(End::Clamped),
         ] {
             for n in [topology.least_nodes(), 9] {
                 let row = topology.edges(n).count() - topology.outer_edges(n).count();

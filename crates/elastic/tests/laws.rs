@@ -73,7 +73,12 @@ impl Case {
 }
 
 fn any_end() -> impl Strategy<Value = End> {
-    prop_oneof![Just(End::Free), Just(End::Anchored), Just(End::Pinned)]
+    prop_oneof![
+        Just(End::Free),
+        Just(End::Anchored),
+        Just(End::Pinned),
+        Just(End::Clamped)
+    ]
 }
 
 fn any_topology() -> impl Strategy<Value = Topology> {
@@ -133,7 +138,9 @@ fn natural_open_case() -> impl Strategy<Value = Case> {
 
 /// Any case but with anchored ends: nothing holds the curve to its place but the tether.
 fn natural_case() -> impl Strategy<Value = Case> {
-    case_of(prop_oneof![Just(Topology::Closed), natural_open()])
+    let end = || prop_oneof![Just(End::Free), Just(End::Pinned), Just(End::Clamped)];
+    let open = (end(), end()).prop_map(|(head, tail)| Topology::Open { head, tail });
+    case_of(prop_oneof![Just(Topology::Closed), open])
 }
 
 /// The same cases at every run: a gate that rolls dice tells nobody what broke.
