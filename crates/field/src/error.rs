@@ -16,6 +16,14 @@ pub enum FieldError {
         /// Rows given.
         height: usize,
     },
+    /// A mask leaves no pixel.
+    #[error("the mask leaves none of {width} × {height} pixels; at least one must count")]
+    NothingValid {
+        /// Columns given.
+        width: usize,
+        /// Rows given.
+        height: usize,
+    },
     /// A pixel is NaN or infinite; the first one in reading order is named.
     #[error("pixel ({column}, {row}) is {value}; every pixel must be a finite number")]
     NotFinite {
