@@ -183,7 +183,7 @@ fn certificate(name: &str) -> Result<bool, SandboxError> {
     println!("{}", scene.title);
     print!("{}", Certificate::of(&scene.snake, None));
     let here = Certificate::of(&scene.snake, Some(&scene.start));
-    if scene.snake.world().image().is_some() {
+    if scene.picture.is_some() {
         println!(
             "at the start alone, highest frequency of the image: {:.6}",
             here.image

@@ -147,8 +147,8 @@ fn a_number_that_is_none_is_refused_by_its_key() {
             ),
             (
                 "steps = 5",
-                "steps = 5\nrest = { speed = X, force = 1.0 }",
-                "run.rest.speed",
+                "steps = 5\nrest = { balance = X, travel = 1.0 }",
+                "run.rest.balance",
             ),
             (
                 "[snake]",
@@ -335,8 +335,8 @@ fn a_run_of_absurd_length_is_refused_and_one_of_no_step_is_a_run() {
     );
     changed(
         "steps = 5",
-        "steps = 5\nrest = { speed = 1.0, force = 1.0, every = 0 }",
-        &["run.rest.every"],
+        "steps = 5\nrest = { travel = 0 }",
+        &["run.rest.travel"],
     );
     changed(
         "dt = 0.01\nsteps = 5",

@@ -108,11 +108,7 @@ fn a_typo_is_answered_with_the_nearest_key() {
             "right-of",
         ),
         ("[snake]", "[field]\nsgma = 2.0\n[snake]", "sigma"),
-        (
-            "steps = 5",
-            "steps = 5\nrest = { sped = 1.0, force = 1.0 }",
-            "speed",
-        ),
+        ("steps = 5", "steps = 5\nrest = { travl = 1.0 }", "travel"),
         ("steps = 5", "steps = 5\nscheme = \"leap-frog\"", "leapfrog"),
         (
             CIRCLE,

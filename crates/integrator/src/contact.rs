@@ -156,6 +156,7 @@ impl Contacts {
                 Some(asked) => asked,
             };
         }
+        system.met(t, x, v);
         Ok(true)
     }
 

@@ -131,7 +131,6 @@ impl Stepper for Rk4 {
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let dt = self.clock.dt;
         let t = self.clock.now();
-        self.rates.advance(Self::NAME, system, t, &state.x)?;
         self.x.copy_from_slice(&state.x);
         self.v.copy_from_slice(&state.v);
         stop_held(system, &mut self.v);
@@ -144,8 +143,10 @@ impl Stepper for Rk4 {
             (0.5, 2.0, 1.0),
             (1.0, 1.0, 0.0),
         ] {
+            let now = t + at * dt;
+            self.rates.advance(Self::NAME, system, now, &state.x)?;
             self.rates
-                .acceleration(system, t + at * dt, &self.x, &self.v, &mut self.rate)?;
+                .acceleration(system, now, &self.x, &self.v, &mut self.rate)?;
             let (share, reach) = (dt * weight / 6.0, dt * ahead);
             for i in 0..state.len() {
                 let (v, a) = (self.v[i], self.rate[i]);

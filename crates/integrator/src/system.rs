@@ -159,6 +159,12 @@ pub trait System {
         let _ = (dt, before, x, v, touches);
     }
 
+    /// The nodes are now at `x` with velocities `v`, after the touches of the last
+    /// [`contacts`](Self::contacts): for whoever keeps account of what contacts take.
+    fn met(&mut self, t: f64, x: &[DVec2], v: &[DVec2]) {
+        let _ = (t, x, v);
+    }
+
     /// Largest stiffness and damping that a penalty contact adds at one node, for step limits.
     fn contact_stiffness(&self) -> (f64, f64) {
         (0.0, 0.0)

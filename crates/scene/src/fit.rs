@@ -157,14 +157,7 @@ impl Fit {
             plan: Plan {
                 scheme,
                 dt,
-                until: Until::at_rest(
-                    Rest {
-                        speed: 1e-2,
-                        force: 1e-2,
-                        every: 10,
-                    },
-                    self.steps,
-                ),
+                until: Until::at_rest(Rest::default(), self.steps),
                 start_rule: Start::SecondOrder,
                 force: false,
                 recording: Recording::default(),

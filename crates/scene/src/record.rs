@@ -7,7 +7,8 @@ use std::path::Path;
 
 use glam::DVec2;
 use integrator::State;
-use serde::Serialize;
+use serde::ser::SerializeMap as _;
+use serde::{Serialize, Serializer};
 use snake::{Energies, Ledger, Outcome, Snake};
 
 use crate::SceneError;
@@ -41,14 +42,7 @@ impl Frame {
             t: state.t,
             nodes: state.x.clone(),
             velocities: keep.velocities.then(|| state.v.clone()),
-            energies: ledger.map(|ledger| {
-                let energies = ledger.energies(snake, state);
-                // minus no work is plain zero
-                Energies {
-                    image: energies.image + 0.0,
-                    ..energies
-                }
-            }),
+            energies: ledger.map(|ledger| ledger.energies(snake, state)),
         }
     }
 }
@@ -66,6 +60,8 @@ pub struct Record {
     pub dt: f64,
     /// Whether the curve is closed.
     pub closed: bool,
+    /// What the energies are called, in the order of [`Energies::values`].
+    pub terms: Vec<String>,
     /// The moments kept: the start, those asked for, the end.
     pub frames: Vec<Frame>,
     /// How it ended.
@@ -85,26 +81,31 @@ struct Header<'a> {
 }
 
 #[derive(Serialize)]
-struct Line {
+struct Line<'a> {
     step: u64,
     t: f64,
     x: Vec<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     v: Option<Vec<[f64; 2]>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    energy: Option<EnergyLine>,
+    energy: Option<EnergyLine<'a>>,
 }
 
-#[derive(Serialize)]
-struct EnergyLine {
-    kinetic: f64,
-    tether: f64,
-    tension: f64,
-    rigidity: f64,
-    gravity: f64,
-    wall: f64,
-    image: f64,
-    total: f64,
+/// Energies under their names, and their sum.
+struct EnergyLine<'a> {
+    names: &'a [String],
+    energies: &'a Energies,
+}
+
+impl Serialize for EnergyLine<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        for (name, value) in self.names.iter().zip(self.energies.values()) {
+            map.serialize_entry(name, &value)?;
+        }
+        map.serialize_entry("total", &self.energies.total())?;
+        map.end()
+    }
 }
 
 #[derive(Serialize)]
@@ -128,6 +129,7 @@ impl Record {
             scheme: scene.plan.scheme.to_string(),
             dt: scene.plan.dt,
             closed: matches!(scene.snake.body().topology, elastic::Topology::Closed),
+            terms: Energies::names(scene.snake.world()),
             frames: Vec::new(),
             outcome: Outcome::Finished { step: 0 },
         }
@@ -170,27 +172,19 @@ impl Record {
                 t: frame.t,
                 x: pairs(&frame.nodes),
                 v: frame.velocities.as_deref().map(pairs),
-                energy: frame.energies.map(|e| EnergyLine {
-                    kinetic: e.kinetic,
-                    tether: e.tether,
-                    tension: e.tension,
-                    rigidity: e.rigidity,
-                    gravity: e.gravity,
-                    wall: e.wall,
-                    image: e.image,
-                    total: e.total(),
+                energy: frame.energies.as_ref().map(|energies| EnergyLine {
+                    names: &self.terms,
+                    energies,
                 }),
             }))?;
         }
-        let (outcome, node, at) = match self.outcome {
-            Outcome::Finished { .. } => ("finished", None, None),
-            Outcome::Settled { .. } => ("settled", None, None),
-            Outcome::Stopped { .. } => ("stopped", None, None),
-            Outcome::Diverged { node, .. } => ("diverged", Some(node), None),
-            Outcome::LeftField { node, at, .. } => ("left-field", Some(node), Some(at.to_array())),
+        let (node, at) = match self.outcome {
+            Outcome::Diverged { node, .. } => (Some(node), None),
+            Outcome::LeftField { node, at, .. } => (Some(node), Some(at.to_array())),
+            _ => (None, None),
         };
         push(serde_json::to_string(&Footer {
-            outcome,
+            outcome: self.outcome.name(),
             step: self.outcome.step(),
             node,
             at,
@@ -213,7 +207,7 @@ impl Record {
             text.push_str(",vx,vy");
         }
         if energies {
-            for name in Energies::NAMES {
+            for name in &self.terms {
                 let _ = write!(text, ",{name}");
             }
             text.push_str(",total");

@@ -78,7 +78,7 @@ law = { impact = { §impact§ friction = 1.0 } }
 §run§
 dt = 0.01
 steps = 5
-rest = { §stop§ speed = 1e-3, force = 1e-3 }
+rest = { §stop§ balance = 1e-3, travel = 1e-4 }
 [record]
 §record§
 every = 1

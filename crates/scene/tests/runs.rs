@@ -111,12 +111,12 @@ fn drift(dt: f64) -> f64 {
     let totals: Vec<f64> = record
         .frames
         .iter()
-        .map(|frame| frame.energies.unwrap().total())
+        .map(|frame| frame.energies.as_ref().unwrap().total())
         .collect();
     let swing = record
         .frames
         .iter()
-        .map(|f| f.energies.unwrap().kinetic)
+        .map(|f| f.energies.as_ref().unwrap().kinetic)
         .fold(0.0, f64::max);
     assert!(
         swing > 0.1 * totals[0],
@@ -149,7 +149,7 @@ fn the_energies_of_a_record_sum_up_to_its_total() {
     let wall = record
         .frames
         .iter()
-        .map(|f| f.energies.unwrap().wall)
+        .map(|f| f.energies.as_ref().unwrap().wall)
         .fold(0.0, f64::max);
     assert!(wall > 0.0, "the wall is met");
     let text = record.to_csv();
@@ -186,7 +186,7 @@ fn both_formats_give_every_number_back_to_the_bit() {
     let json = record.to_json_lines().unwrap();
     for (frame, line) in record.frames.iter().zip(json.lines().skip(1)) {
         let velocities = frame.velocities.as_ref().unwrap();
-        let energies = frame.energies.unwrap();
+        let energies = frame.energies.as_ref().unwrap();
         let mut expected = vec![frame.step as f64, frame.t];
         expected.extend(frame.nodes.iter().flat_map(|p| p.to_array()));
         expected.extend(velocities.iter().flat_map(|v| v.to_array()));

@@ -45,7 +45,7 @@ law = { impact = { restitution = 0.5, friction = 0.3 } }
 [run]
 dt = 0.001
 steps = 4
-rest = { speed = 1e-3, force = 1e-2, every = 2 }
+rest = { balance = 1e-2 }
 [record]
 every = 2
 steps = [1]

@@ -3,11 +3,10 @@
 use std::fmt;
 
 use banded::{Circulant, Dense};
-use field::{ForceField, Interpolation};
-use glam::{DMat2, DVec2};
+use glam::DVec2;
 use integrator::{Fault, Scheme, State, System};
 
-use crate::{External, Snake};
+use crate::{Pull, Snake};
 
 /// The most nodes whose modes are found one by one where the curve is not a ring of equal nodes.
 const MOST: usize = 400;
@@ -89,10 +88,11 @@ impl Certificate {
     pub fn of(snake: &Snake, state: Option<&State>) -> Self {
         let least = free(snake, snake.mass()).fold(f64::INFINITY, f64::min);
         let frequency = |stiffness: f64| (stiffness / least).sqrt();
-        let image_slope = image_slope(snake, state);
+        let pull = felt(snake, state);
+        let image_slope = pull.stiffness;
         let (contact, _) = snake.contact_stiffness();
         let (modes, complete) = modes(snake);
-        let felt = Felt { snake, image_slope };
+        let felt = Felt { snake, pull };
         let shortest = Scheme::Leapfrog.step_limit(&felt).unwrap_or(1.0);
         let limit = |scheme: Scheme| {
             // this one has the picture's slope in its matrix
@@ -311,67 +311,22 @@ fn outermost(snake: &Snake) -> (Vec<ModeOfMotion>, bool) {
     (vec![candidates[first], last], false)
 }
 
-/// How steeply the pictures push a node back at most: the largest −∂F/∂x along any direction.
-fn image_slope(snake: &Snake, state: Option<&State>) -> f64 {
-    let mut steepest = 0.0_f64;
-    for external in &snake.world().externals {
-        let External::Image(image) = external else {
-            continue;
-        };
-        match state {
-            Some(state) => {
-                for (i, &p) in state
-                    .x
-                    .iter()
-                    .enumerate()
-                    .filter(|(i, _)| !snake.held()[*i])
-                {
-                    let (_, slope) = image.field.sample_with_slope(p, Interpolation::Bilinear);
-                    steepest = steepest.max(image.weight.at(i) * push_back(slope));
-                }
-            }
-            None => {
-                let weight = image.weight.to_vec(snake.len());
-                let most = weight.iter().copied().fold(0.0, f64::max);
-                steepest = steepest.max(most * steepest_in(&image.field));
-            }
-        }
+/// How steeply the forces push a node back at most, and how much they damp it.
+fn felt(snake: &Snake, state: Option<&State>) -> Pull {
+    let mut sum = Pull::default();
+    for acting in &snake.world().forces {
+        let curve = state.map(|state| snake.curve(state.t, &state.x, &state.v));
+        let pull = acting.pull(curve.as_ref());
+        sum.stiffness += pull.stiffness;
+        sum.damping += pull.damping;
     }
-    steepest
+    sum
 }
 
-/// The steepest push back anywhere between the pixel centers.
-///
-/// In a cell the slope along x is linear in y and the other way round, and the steepest push back is
-/// a convex function of both: it is largest in a corner.
-fn steepest_in(field: &ForceField) -> f64 {
-    let at = |column: usize, row: usize| field.pixel(column, row).unwrap_or(DVec2::ZERO);
-    let mut steepest = 0.0_f64;
-    for row in 1..field.height() {
-        for column in 1..field.width() {
-            let [a, b] = [at(column - 1, row - 1), at(column, row - 1)];
-            let [c, d] = [at(column - 1, row), at(column, row)];
-            for x in [b - a, d - c] {
-                for y in [c - a, d - b] {
-                    steepest = steepest.max(push_back(DMat2::from_cols(x, y)));
-                }
-            }
-        }
-    }
-    steepest
-}
-
-/// The largest eigenvalue of −½ (J + Jᵀ), at least 0.
-fn push_back(slope: DMat2) -> f64 {
-    let (a, d) = (-slope.x_axis.x, -slope.y_axis.y);
-    let b = -0.5 * (slope.x_axis.y + slope.y_axis.x);
-    (0.5 * (a + d) + (0.5 * (a - d)).hypot(b)).max(0.0)
-}
-
-/// The snake with the slope of its pictures where a penalty wall would be, to ask for largest steps.
+/// The snake with the slopes of its forces where a penalty wall would be, to ask for largest steps.
 struct Felt<'a> {
     snake: &'a Snake,
-    image_slope: f64,
+    pull: Pull,
 }
 
 impl System for Felt<'_> {
@@ -398,7 +353,7 @@ impl System for Felt<'_> {
     }
     fn contact_stiffness(&self) -> (f64, f64) {
         let (stiffness, damping) = self.snake.contact_stiffness();
-        (stiffness + self.image_slope, damping)
+        (stiffness + self.pull.stiffness, damping + self.pull.damping)
     }
 }
 

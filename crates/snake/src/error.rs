@@ -35,6 +35,14 @@ pub enum SnakeError {
         /// Its time.
         time: f64,
     },
+    /// Another number of nodes than the snake has.
+    #[error("the snake has {needed} nodes, got a body of {got}")]
+    OtherLength {
+        /// What the snake has.
+        needed: usize,
+        /// What was given.
+        got: usize,
+    },
     /// The mass-weighted center needs some mass.
     #[error("the center of mass needs some mass, but mass is 0 everywhere")]
     NoMass,

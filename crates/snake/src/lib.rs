@@ -35,25 +35,31 @@
 //! What it cannot do yet: turn its body frame (report §5.2), push with a pressure (§5.4), re-space
 //! its nodes, or meet another snake.
 
+mod account;
 mod body;
 mod certificate;
 mod energy;
 mod error;
-mod external;
+mod force;
+mod parameters;
+mod rest;
 mod run;
 mod schedule;
 mod snake;
 mod wall;
+mod world;
 
 pub use body::{Body, Center, Frame};
 pub use certificate::{Certificate, ModeOfMotion};
 pub use energy::{Energies, Ledger};
 pub use error::SnakeError;
-pub use external::{External, ImageForce, Sampling, World};
-pub use run::{Outcome, Rest, Until, run};
+pub use force::{Acting, Curve, Force, Gravity, ImageForce, Pull, Sampling};
+pub use rest::Rest;
+pub use run::{Outcome, Until, run};
 pub use schedule::{Schedule, Schedules};
 pub use snake::Snake;
 pub use wall::{Wall, WallLaw};
+pub use world::World;
 
 pub use elastic;
 pub use field;

@@ -6,13 +6,14 @@ use glam::DVec2;
 use integrator::{FaultKind, State, Stepper};
 
 use crate::Snake;
+use crate::rest::{Rest, Verdict, Watch};
 
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Until {
     /// After so many steps at the latest.
     pub steps: u64,
-    /// When at rest, if asked for.
+    /// When at rest, if asked for; then also when it goes round in circles, is lost or collapses.
     pub rest: Option<Rest>,
 }
 
@@ -33,21 +34,6 @@ impl Until {
     }
 }
 
-/// What counts as rest: slow *and* balanced, at two looks in a row.
-///
-/// Force alone would call a snake flying through empty space at rest, speed alone one that is
-/// just being let go, or that creeps by less than a threshold a step (the false convergence of
-/// tests on pixels per step).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rest {
-    /// Largest speed of a node. L T⁻¹.
-    pub speed: f64,
-    /// Largest net force on a node, per unit of arc length. M L T⁻².
-    pub force: f64,
-    /// Steps between two looks.
-    pub every: u64,
-}
-
 /// How a run ended. None of these is an error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Outcome {
@@ -59,6 +45,24 @@ pub enum Outcome {
     /// It came to rest.
     Settled {
         /// At this step.
+        step: u64,
+    },
+    /// It goes to and fro without getting calmer, as a node on a jump of the report's sampling does
+    /// (D52), or anything without damping.
+    Cycles {
+        /// Seen at this step.
+        step: u64,
+        /// How far the node that moves most gets from where it was. L.
+        reach: f64,
+    },
+    /// More than half of its nodes are at the border of the picture or beyond it.
+    Lost {
+        /// Seen at this step.
+        step: u64,
+    },
+    /// It has shrunk to a hundredth of its size at the start, or less.
+    Collapsed {
+        /// Seen at this step.
         step: u64,
     },
     /// The observer said so.
@@ -91,9 +95,27 @@ impl Outcome {
         match *self {
             Self::Finished { step }
             | Self::Settled { step }
+            | Self::Cycles { step, .. }
+            | Self::Lost { step }
+            | Self::Collapsed { step }
             | Self::Stopped { step }
             | Self::Diverged { step, .. }
             | Self::LeftField { step, .. } => step,
+        }
+    }
+
+    /// The word for it in records.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Finished { .. } => "finished",
+            Self::Settled { .. } => "settled",
+            Self::Cycles { .. } => "cycles",
+            Self::Lost { .. } => "lost",
+            Self::Collapsed { .. } => "collapsed",
+            Self::Stopped { .. } => "stopped",
+            Self::Diverged { .. } => "diverged",
+            Self::LeftField { .. } => "left-field",
         }
     }
 
@@ -112,6 +134,19 @@ impl std::fmt::Display for Outcome {
         match *self {
             Self::Finished { step } => write!(f, "finished after {step} steps"),
             Self::Settled { step } => write!(f, "came to rest after {step} steps"),
+            Self::Cycles { step, reach } => write!(
+                f,
+                "goes to and fro by {reach:.3} pixels without getting calmer, seen after {step} steps"
+            ),
+            Self::Lost { step } => {
+                write!(
+                    f,
+                    "lost: most of it is at the border of the picture after {step} steps"
+                )
+            }
+            Self::Collapsed { step } => {
+                write!(f, "collapsed to a hundredth of its size after {step} steps")
+            }
             Self::Stopped { step } => write!(f, "stopped after {step} steps"),
             Self::Diverged { step, node } => {
                 write!(f, "blew up after {step} steps, first at node {node}")
@@ -127,8 +162,8 @@ impl std::fmt::Display for Outcome {
 
 /// Move `snake` from `state` by `stepper` until `until`, showing every step to `observer`.
 ///
-/// The observer sees the state after each step and may stop the run. A snake whose nodes are
-/// farther than 1e12 from the origin, or nowhere, has blown up.
+/// The observer sees the state after each step, may change the snake's body or world, and may stop
+/// the run. A snake whose nodes are farther than 1e12 from the origin, or nowhere, has blown up.
 pub fn run(
     snake: &mut Snake,
     stepper: &mut dyn Stepper,
@@ -136,9 +171,8 @@ pub fn run(
     until: &Until,
     observer: &mut dyn FnMut(&mut Snake, &State) -> ControlFlow<()>,
 ) -> Outcome {
-    let mut scratch = vec![DVec2::ZERO; state.x.len()];
-    let mut looks = 0;
     let begin = state.step;
+    let mut watch = until.rest.map(|rest| Watch::new(rest, snake, state));
     while state.step - begin < until.steps {
         if let Err(fault) = stepper.step(snake, state) {
             let (step, node) = (state.step, fault.node);
@@ -161,18 +195,13 @@ pub fn run(
         if observer(snake, state).is_break() {
             return Outcome::Stopped { step: state.step };
         }
-        if let Some(rest) = until.rest
-            && state.step.is_multiple_of(rest.every.max(1))
-        {
-            let speed = state.v.iter().map(|v| v.length()).fold(0.0, f64::max);
-            let calm = speed < rest.speed
-                && snake
-                    .residual(state, &mut scratch)
-                    .is_ok_and(|force| force < rest.force);
-            looks = if calm { looks + 1 } else { 0 };
-            if looks == 2 {
-                return Outcome::Settled { step: state.step };
-            }
+        let step = state.step;
+        match watch.as_mut().map(|watch| watch.look(snake, state)) {
+            None | Some(Verdict::Moving) => {}
+            Some(Verdict::Rest) => return Outcome::Settled { step },
+            Some(Verdict::Cycle { reach }) => return Outcome::Cycles { step, reach },
+            Some(Verdict::Lost) => return Outcome::Lost { step },
+            Some(Verdict::Collapsed) => return Outcome::Collapsed { step },
         }
     }
     Outcome::Finished { step: state.step }

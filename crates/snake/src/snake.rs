@@ -1,18 +1,19 @@
 //! A body in a world: the system that the schemes move.
 
-use banded::{Operator, Pentadiagonal};
-use elastic::{End, Material, Topology};
-use field::Interpolation;
+use banded::Operator;
+use elastic::Material;
 use glam::{DMat2, DVec2};
 use integrator::{Fault, State, System, Touch};
 
-use crate::{Body, Center, Energies, External, Sampling, SnakeError, Wall, World};
+use crate::account::Account;
+use crate::parameters::{operator, pushes, scaled};
+use crate::{Acting, Body, Center, Curve, SnakeError, Wall, World};
 
 /// A snake: a [`Body`] in a [`World`], ready to be moved by any scheme of [`integrator`].
 #[derive(Debug, Clone)]
 pub struct Snake {
-    body: Body,
-    world: World,
+    pub(crate) body: Body,
+    pub(crate) world: World,
     /// Weights of the nodes in the frame's origin; they sum to 1.
     weights: Vec<f64>,
     held: Vec<bool>,
@@ -20,13 +21,15 @@ pub struct Snake {
     /// Whether `−K e` has a sum, so that the frame's reaction is more than rounding.
     pushes: bool,
     /// The parameters as they are at the time last asked for.
-    material: Material,
-    mass: Vec<f64>,
-    damping: Vec<f64>,
-    factors: [f64; 5],
+    pub(crate) material: Material,
+    pub(crate) mass: Vec<f64>,
+    pub(crate) damping: Vec<f64>,
+    pub(crate) factors: [f64; 5],
     stiffness: Operator,
-    deformation: Vec<DVec2>,
-    scratch: Vec<DVec2>,
+    pub(crate) deformation: Vec<DVec2>,
+    pub(crate) account: Option<Account>,
+    /// Someone changed the body: the schemes are to be told.
+    changed: bool,
 }
 
 impl Snake {
@@ -45,11 +48,11 @@ impl Snake {
         let (material, mass, damping) = scaled(&body, factors);
         let stiffness = operator(&body, &material, &weights, &held)?;
         let pushes = pushes(&body, &material);
-        let (deformation, scratch) = (vec![DVec2::ZERO; n], vec![DVec2::ZERO; n]);
         Ok(Self {
             any_held: held.contains(&true),
             pushes,
-            scratch,
+            account: None,
+            changed: false,
             body,
             world,
             weights,
@@ -59,7 +62,7 @@ impl Snake {
             damping,
             factors,
             stiffness,
-            deformation,
+            deformation: vec![DVec2::ZERO; n],
         })
     }
 
@@ -93,68 +96,100 @@ impl Snake {
         }
     }
 
-    /// Force of the pictures alone, weights included. Overwrites `force`.
+    /// The curve as its forces meet it.
+    pub(crate) fn curve<'a>(&'a self, t: f64, x: &'a [DVec2], v: &'a [DVec2]) -> Curve<'a> {
+        Curve {
+            t,
+            x,
+            v,
+            mass: &self.mass,
+            closed: self.body.topology.is_closed(),
+            spacing: self.body.spacing,
+        }
+    }
+
+    /// The forces of the world, and the curve they meet.
+    pub(crate) fn forces<'a>(
+        &'a mut self,
+        t: f64,
+        x: &'a [DVec2],
+        v: &'a [DVec2],
+    ) -> (&'a mut [Acting], Curve<'a>) {
+        let curve = Curve {
+            t,
+            x,
+            v,
+            mass: &self.mass,
+            closed: self.body.topology.is_closed(),
+            spacing: self.body.spacing,
+        };
+        (&mut self.world.forces, curve)
+    }
+
+    /// Add the force number `index` of the world, weights included, to `force`.
     ///
     /// # Errors
     ///
-    /// The fault of the first node at which a field cannot be read.
-    pub fn image_force(&mut self, x: &[DVec2], force: &mut [DVec2]) -> Result<(), Fault> {
-        force.fill(DVec2::ZERO);
-        for external in &self.world.externals {
-            if let External::Image(image) = external {
-                image.add(x, &mut self.scratch, force)?;
-            }
+    /// The fault of the first node at which it has no value.
+    pub fn force_of(
+        &mut self,
+        index: usize,
+        state: &State,
+        force: &mut [DVec2],
+    ) -> Result<(), Fault> {
+        let (forces, curve) = self.forces(state.t, &state.x, &state.v);
+        forces
+            .get_mut(index)
+            .map_or(Ok(()), |acting| acting.add(&curve, force))
+    }
+
+    /// Put another body in place of this one; its schemes are told at their next step.
+    ///
+    /// # Errors
+    ///
+    /// As [`Snake::new`]; then nothing has changed. A body of another number of nodes is
+    /// refused: that is a new snake.
+    pub fn set_body(&mut self, body: Body) -> Result<(), SnakeError> {
+        if body.len() != self.body.len() {
+            return Err(SnakeError::OtherLength {
+                needed: self.body.len(),
+                got: body.len(),
+            });
         }
+        let world = self.world.clone();
+        let account = self.account.take();
+        *self = Self {
+            account,
+            changed: true,
+            ..Self::new(body, world)?
+        };
         Ok(())
     }
 
-    /// Energies at `state`; `image` is left 0, since it needs a [`crate::Ledger`].
-    pub fn energies(&mut self, state: &State) -> Energies {
-        let h = self.body.spacing;
-        let mut e = std::mem::take(&mut self.deformation);
-        self.deformation_into(&state.x, &mut e);
-        let elastic = elastic::elastic_energy(&e, self.body.topology, &self.material, h);
-        self.deformation = e;
-        let mut energies = Energies {
-            tether: elastic.tether,
-            tension: elastic.tension,
-            rigidity: elastic.rigidity,
-            ..Energies::default()
-        };
-        for (i, (&x, &v)) in state.x.iter().zip(&state.v).enumerate() {
-            energies.kinetic += 0.5 * h * self.mass[i] * v.length_squared();
-            for external in &self.world.externals {
-                if let External::Gravity(g) = external {
-                    energies.gravity -= h * self.mass[i] * g.dot(x);
-                }
-            }
-            for wall in &self.world.walls {
-                energies.wall += h * wall.energy(x);
-            }
-        }
-        energies
-    }
-
-    /// Net force that no motion explains: elastic plus external at rest, per unit of arc length,
-    /// largest over the nodes. Zero at equilibrium.
+    /// Put another world in place of this one: forces that come and go during a run.
     ///
     /// # Errors
     ///
-    /// The fault of the first node at which a force cannot be evaluated.
-    pub fn residual(&mut self, state: &State, scratch: &mut [DVec2]) -> Result<f64, Fault> {
-        self.elastic(&state.x, scratch);
-        let mut still = std::mem::take(&mut self.deformation);
-        still.fill(DVec2::ZERO);
-        let outcome = self.external(state.t, &state.x, &still, scratch);
-        self.deformation = still;
-        outcome?;
+    /// Refused: whatever [`World::validate`] refuses; then nothing has changed.
+    pub fn set_world(&mut self, world: World) -> Result<(), SnakeError> {
+        world.validate(self.body.len())?;
+        self.world = world;
+        Ok(())
+    }
+
+    /// Largest of the net forces `net` at `state` once walls have answered, held nodes left out.
+    pub(crate) fn largest_push(&self, state: &State, net: &[DVec2]) -> f64 {
         let mut largest = 0.0_f64;
-        for (i, f) in scratch.iter().enumerate() {
-            if !self.held[i] {
-                largest = largest.max(self.pushed(state.x[i], *f).length());
-            }
+        for (i, force) in net.iter().enumerate().filter(|(i, _)| !self.held[*i]) {
+            let sprung: DVec2 = self
+                .world
+                .walls
+                .iter()
+                .map(|wall| wall.force(state.x[i], DVec2::ZERO))
+                .sum();
+            largest = largest.max(self.pushed(state.x[i], *force + sprung).length());
         }
-        Ok(largest)
+        largest
     }
 
     /// What is left of a force once the walls the node touches have answered it.
@@ -167,80 +202,6 @@ impl Snake {
         }
         force
     }
-}
-
-/// The parameters of `body` times the five factors.
-fn scaled(body: &Body, [tether, tension, rigidity, mass, damping]: [f64; 5]) -> Parameters {
-    let n = body.len();
-    let material = Material {
-        tether: body.material.tether.scaled(tether),
-        tension: body.material.tension.scaled(tension),
-        rigidity: body.material.rigidity.scaled(rigidity),
-    };
-    (
-        material,
-        body.mass.scaled(mass).to_vec(n),
-        body.damping.scaled(damping).to_vec(n),
-    )
-}
-
-/// Whether the reaction of the frame has anything to take out of `−K e`.
-///
-/// The sum of `−K e` is `−Σ kⱼ eⱼ` with `k = K 1`. Closed or with natural ends, k is the tether
-/// alone; where that and the mass are the same everywhere, the sum is that of e, which is zero
-/// about the mean.
-fn pushes(body: &Body, material: &Material) -> bool {
-    let natural = match body.topology {
-        Topology::Closed => true,
-        Topology::Open { head, tail } => head != End::Anchored && tail != End::Anchored,
-    };
-    let even = body.frame.center == Center::Mean || body.mass.is_uniform();
-    body.frame.reaction && !(natural && even && material.tether.is_uniform())
-}
-
-type Parameters = (Material, Vec<f64>, Vec<f64>);
-
-/// The operator `Pᵀ K P`, held nodes taken out: K, and a correction of rank two for the frame.
-///
-/// ```text
-/// P = I − 1 wᵀ,   Pᵀ K P = K − w kᵀ − k wᵀ + s w wᵀ,   k = K 1,   s = 1ᵀ K 1
-/// ```
-///
-/// Without reaction (the report's frame) the force is `−K P x`, which is not symmetric; what is
-/// returned then is its symmetric part up to rank two, `K − ½ (w kᵀ + k wᵀ)`. The implicit schemes
-/// need the exact one and refuse such a frame where the difference matters.
-fn operator(
-    body: &Body,
-    material: &Material,
-    weights: &[f64],
-    held: &[bool],
-) -> Result<Operator, SnakeError> {
-    let n = body.len();
-    let band: Pentadiagonal = elastic::stiffness(body.topology, material, body.spacing, n)?;
-    let mut row_sums = vec![0.0; n];
-    band.multiply_scalars_into(&vec![1.0; n], &mut row_sums);
-    let scale = band.diagonal().iter().fold(0.0_f64, |a, d| a.max(d.abs()));
-    let drift = row_sums.iter().fold(0.0_f64, |a, k| a.max(k.abs()));
-    let mut masked = band;
-    masked.hold(held);
-    if drift <= 1e-13 * scale {
-        return Ok(Operator::from(masked));
-    }
-    let total: f64 = row_sums.iter().sum();
-    let free = |values: &[f64]| -> Vec<f64> {
-        values
-            .iter()
-            .zip(held)
-            .map(|(&v, &h)| if h { 0.0 } else { v })
-            .collect()
-    };
-    let middle = if body.frame.reaction {
-        vec![total, -1.0, -1.0, 0.0]
-    } else {
-        vec![0.0, -0.5, -0.5, 0.0]
-    };
-    let columns = vec![free(weights), free(&row_sums)];
-    Operator::new(masked, columns, middle).map_err(|error| SnakeError::Elastic(error.into()))
 }
 
 impl System for Snake {
@@ -265,8 +226,9 @@ impl System for Snake {
     }
 
     fn advance(&mut self, t: f64) -> bool {
+        let changed = std::mem::take(&mut self.changed);
         if self.body.schedules.is_empty() {
-            return false;
+            return changed;
         }
         let factors = self.body.schedules.at(t);
         let same = factors
@@ -274,7 +236,7 @@ impl System for Snake {
             .zip(&self.factors)
             .all(|(a, b)| a.to_bits() == b.to_bits());
         if same {
-            return false;
+            return changed;
         }
         let (material, mass, damping) = scaled(&self.body, factors);
         // the same profiles passed with other factors at the door, so this cannot be refused
@@ -314,20 +276,14 @@ impl System for Snake {
 
     fn external(
         &mut self,
-        _t: f64,
+        t: f64,
         x: &[DVec2],
         v: &[DVec2],
         force: &mut [DVec2],
     ) -> Result<(), Fault> {
-        for external in &self.world.externals {
-            match external {
-                External::Gravity(g) => {
-                    for (f, &mass) in force.iter_mut().zip(&self.mass) {
-                        *f += *g * mass;
-                    }
-                }
-                External::Image(image) => image.add(x, &mut self.scratch, force)?,
-            }
+        let (forces, curve) = self.forces(t, x, v);
+        for acting in forces {
+            acting.add(&curve, force)?;
         }
         for wall in self.world.walls.iter().filter(|wall| wall.is_spring()) {
             for ((f, &p), &v) in force.iter_mut().zip(x).zip(v) {
@@ -358,34 +314,36 @@ impl System for Snake {
                 }
             }
         }
+        if let Some(account) = self.account.as_mut().filter(|_| !touches.is_empty()) {
+            account.x.clear();
+            account.x.extend_from_slice(x);
+            account.v.clear();
+            account.v.extend_from_slice(v);
+        }
+    }
+
+    fn met(&mut self, t: f64, x: &[DVec2], v: &[DVec2]) {
+        self.book_contact(t, x, v);
     }
 
     fn contact_stiffness(&self) -> (f64, f64) {
         self.world.contact_stiffness()
     }
 
-    fn external_slope(&mut self, _t: f64, x: &[DVec2], slope: &mut [DMat2]) -> bool {
-        if self
-            .world
-            .image()
-            .is_some_and(|image| image.sampling == Sampling::OneAxis)
-        {
-            return false; // the report's rule jumps between pixels and has no slope there
-        }
+    fn external_slope(&mut self, t: f64, x: &[DVec2], slope: &mut [DMat2]) -> bool {
         slope.fill(DMat2::ZERO);
-        for external in &self.world.externals {
-            if let External::Image(image) = external {
-                for (i, (slope, &p)) in slope.iter_mut().zip(x).enumerate() {
-                    *slope += image.field.sample_with_slope(p, Interpolation::Bilinear).1
-                        * image.weight.at(i);
-                }
-            }
+        let (forces, curve) = self.forces(t, x, &[]);
+        let mut known = false;
+        let mut any = false;
+        for acting in forces {
+            any |= !acting.is_constant();
+            known |= acting.add_slope(&curve, slope);
         }
         for wall in &self.world.walls {
             for (slope, &p) in slope.iter_mut().zip(x) {
                 *slope += wall.slope(p);
             }
         }
-        true
+        known || !any
     }
 }

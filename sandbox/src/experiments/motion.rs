@@ -4,7 +4,6 @@ use crate::draw::{Color, Line};
 use crate::{Record, SandboxError, Table, Tolerance, real};
 use glam::DVec2;
 use scene::Scene;
-use snake::Energies;
 use std::path::Path;
 
 /// A shipped scene, some of its words exchanged for others: `[(from, to)]`.
@@ -60,10 +59,10 @@ pub(crate) fn keep_frames(record: &mut Record, name: &'static str, run: &scene::
 
 /// Keeps the energies of a run: time, every term, and "total".
 pub(crate) fn keep_energies(record: &mut Record, name: &'static str, run: &scene::Record) {
-    let kept: Vec<(f64, Energies)> = run
+    let kept: Vec<(f64, &snake::Energies)> = run
         .frames
         .iter()
-        .filter_map(|frame| Some((frame.t, frame.energies?)))
+        .filter_map(|frame| Some((frame.t, frame.energies.as_ref()?)))
         .collect();
     let mut table = Table::raw(name).with(
         "t",
@@ -71,11 +70,11 @@ pub(crate) fn keep_energies(record: &mut Record, name: &'static str, run: &scene
         Tolerance::EXACT,
         kept.iter().map(|(t, _)| *t).collect(),
     );
-    for (column, term) in Energies::NAMES.into_iter().enumerate() {
+    for (column, term) in run.terms.iter().enumerate() {
         let values = kept.iter().map(|(_, e)| e.values()[column]).collect();
         table = table.with(term, "", Tolerance::EXACT, values);
     }
-    let totals = kept.iter().map(|(_, e)| e.total()).collect();
+    let totals = kept.iter().map(|(_, e)| e.mechanical()).collect();
     let elastic = kept.iter().map(|(_, e)| e.elastic()).collect();
     record.keep(table.with("elastic", "", Tolerance::EXACT, elastic).with(
         "total",

@@ -145,7 +145,7 @@ fn refused(otherwise: &str, error: &SnakeError) -> SceneError {
             "tension" => "material.tension",
             "rigidity" => "material.rigidity",
             "gravity" => "world.gravity",
-            "image weight" => "field.weight",
+            "weight" => "field.weight",
             _ => otherwise,
         },
         _ => otherwise,

@@ -70,16 +70,11 @@ fn steps(run: &RunText, dt: f64, rules: Rules) -> Result<u64, SceneError> {
 }
 
 fn rest(text: &RestText) -> Result<Rest, SceneError> {
-    if text.every == 0 {
-        return Err(SceneError::key(
-            "run.rest.every",
-            "must be at least 1, got 0",
-        ));
-    }
+    let usual = Rest::default();
+    let (balance, travel) = (text.balance, text.travel);
     Ok(Rest {
-        speed: number::above_zero("run.rest.speed", text.speed)?,
-        force: number::above_zero("run.rest.force", text.force)?,
-        every: text.every,
+        balance: number::above_zero("run.rest.balance", balance.unwrap_or(usual.balance))?,
+        travel: number::above_zero("run.rest.travel", travel.unwrap_or(usual.travel))?,
     })
 }
 

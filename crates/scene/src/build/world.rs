@@ -6,7 +6,7 @@ use elastic::Profile;
 use field::{EdgeForce, FieldError, ForceField, Smoothing};
 use glam::DVec2;
 use integrator::State;
-use snake::{External, ImageForce, Sampling, SnakeError, Wall, WallLaw, World};
+use snake::{Acting, ImageForce, Sampling, SnakeError, Wall, WallLaw, World};
 
 use super::body::profile;
 use super::{Rules, number};
@@ -94,11 +94,8 @@ pub(super) fn world(
             Some(weight) => profile("field.weight", weight, n)?,
             None => Profile::Uniform(1.0),
         };
-        world.externals.push(External::Image(ImageForce {
-            field,
-            sampling,
-            weight,
-        }));
+        let image = Acting::new(ImageForce::new(field, sampling));
+        world = world.with_acting(image.weighted(weight));
     }
     for (i, text) in text.world.wall.iter().enumerate() {
         world.walls.push(wall(&format!("world.wall {i}"), text)?);

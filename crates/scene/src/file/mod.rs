@@ -306,14 +306,8 @@ pub(crate) struct ImpactText {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct RestText {
-    pub speed: f64,
-    pub force: f64,
-    #[serde(default = "ten")]
-    pub every: u64,
-}
-
-fn ten() -> u64 {
-    10
+    pub balance: Option<f64>,
+    pub travel: Option<f64>,
 }
 
 #[derive(Debug, Clone, Deserialize)]

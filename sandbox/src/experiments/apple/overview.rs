@@ -109,8 +109,8 @@ fn run() -> Result<Record, SandboxError> {
     let elastic = |t: f64| {
         let frame = story.run.frames.iter().find(|frame| frame.t >= t - 1e-9);
         frame
-            .and_then(|frame| frame.energies)
-            .map_or(f64::NAN, |e| e.elastic())
+            .and_then(|frame| frame.energies.as_ref())
+            .map_or(f64::NAN, snake::Energies::elastic)
     };
     let few = Tolerance::Absolute(1.0);
     record.note(

@@ -4,7 +4,7 @@
 use crate::experiments::motion::{changed_scene, keep_energies, keep_frames, to_the_end};
 use crate::{Record, SandboxError, Table, Tolerance, real};
 use glam::DVec2;
-use integrator::System;
+use integrator::{State, System};
 use ndarray::Array2;
 use scene::Scene;
 use std::f64::consts::TAU;
@@ -130,8 +130,8 @@ impl Story {
         let mut snake = self.scene.snake.clone();
         let n = nodes.len();
         let (mut image, mut elastic) = (vec![DVec2::ZERO; n], vec![DVec2::ZERO; n]);
-        // a place without force has none
-        let _ = snake.image_force(nodes, &mut image);
+        // its only force; a place without any has none
+        let _ = snake.force_of(0, &State::at_rest(nodes.to_vec()), &mut image);
         snake.elastic(nodes, &mut elastic);
         (image, elastic)
     }

@@ -1,0 +1,143 @@
+//! The energies of a snake at one moment, and what its ledger asks of it.
+
+use glam::DVec2;
+use integrator::State;
+
+use crate::{Curve, Energies, Snake};
+
+/// What a ledger needs to know of the moments between two states.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Account {
+    /// Just before the contacts of a step.
+    pub(crate) x: Vec<DVec2>,
+    pub(crate) v: Vec<DVec2>,
+    /// Taken by contacts since last asked; None where there were none.
+    lost: Option<f64>,
+}
+
+impl Snake {
+    /// The potential of every force of the world, in its order; None for one that has none, and for
+    /// all where the mass, on which they may depend, changes with time.
+    pub(crate) fn potentials(&self, curve: &Curve<'_>) -> Vec<Option<f64>> {
+        let constant = self.body.schedules.mass.is_none();
+        self.world
+            .forces
+            .iter()
+            .map(|acting| acting.energy(curve).filter(|_| constant))
+            .collect()
+    }
+
+    /// Energies at `state`. What needs a [`crate::Ledger`] is left 0: the work of forces without a
+    /// potential, and all that was lost or put in.
+    pub fn energies(&mut self, state: &State) -> Energies {
+        let potentials = self.potentials(&self.curve(state.t, &state.x, &state.v));
+        let forces = potentials
+            .into_iter()
+            .map(|energy| energy.unwrap_or(0.0))
+            .collect();
+        Energies {
+            forces,
+            ..self.own_energies(state.t, &state.x, &state.v)
+        }
+    }
+
+    /// Kinetic and elastic energy, and that of penalty walls; parameters are those of time `t`, whatever
+    /// time a scheme last asked for.
+    fn own_energies(&mut self, t: f64, x: &[DVec2], v: &[DVec2]) -> Energies {
+        let h = self.body.spacing;
+        let [tether, tension, rigidity, mass, _] = self.body.schedules.at(t);
+        let mut e = std::mem::take(&mut self.deformation);
+        self.deformation_into(x, &mut e);
+        let body = &self.body;
+        let elastic = elastic::elastic_energy(&e, body.topology, &body.material, h);
+        let mut energies = Energies {
+            tether: tether * elastic.tether,
+            tension: tension * elastic.tension,
+            rigidity: rigidity * elastic.rigidity,
+            ..Energies::default()
+        };
+        for (i, (&x, &v)) in x.iter().zip(v).enumerate() {
+            energies.kinetic += 0.5 * h * (mass * body.mass.at(i)) * v.length_squared();
+            for wall in &self.world.walls {
+                energies.wall += h * wall.energy(x);
+            }
+        }
+        self.deformation = e;
+        energies
+    }
+
+    /// Keep account of what contacts take and schedules put in, from now on.
+    pub(crate) fn keep_account(&mut self) {
+        self.account = Some(Account::default());
+    }
+
+    /// Energy that contacts have taken since last asked; None where there were none.
+    pub(crate) fn take_lost(&mut self) -> Option<f64> {
+        self.account
+            .as_mut()
+            .and_then(|account| account.lost.take())
+    }
+
+    /// Energy that schedules have put in between two states: what the change of the parameters alone
+    /// does to the energy, the mean of both places.
+    pub(crate) fn take_put_in(&mut self, before: &State, after: &State) -> f64 {
+        if self.body.schedules.is_empty() {
+            return 0.0;
+        }
+        let mut put_in = 0.0;
+        for state in [before, after] {
+            let own = |snake: &mut Self, t: f64| snake.own_energies(t, &state.x, &state.v);
+            put_in += own(self, after.t).mechanical() - own(self, before.t).mechanical();
+        }
+        0.5 * put_in
+    }
+
+    /// What damping and the dampers of penalty walls take at `state`, per unit of time and length of
+    /// curve a node.
+    pub(crate) fn loss(&self, state: &State) -> f64 {
+        let (mut loss, damping) = (0.0, self.body.schedules.at(state.t)[4]);
+        for (i, (&x, &v)) in state.x.iter().zip(&state.v).enumerate() {
+            loss += damping * self.body.damping.at(i) * v.length_squared();
+            for wall in self.world.walls.iter().filter(|wall| wall.is_spring()) {
+                loss -= (wall.force(x, v) - wall.force(x, DVec2::ZERO)).dot(v);
+            }
+        }
+        loss
+    }
+
+    /// Kinetic, elastic and potential energy.
+    fn mechanical(&mut self, t: f64, x: &[DVec2], v: &[DVec2]) -> f64 {
+        let potentials = self.potentials(&self.curve(t, x, v));
+        self.own_energies(t, x, v).mechanical() + potentials.into_iter().flatten().sum::<f64>()
+    }
+
+    /// What forces without a potential do while contacts move the nodes from `before` to `x`.
+    fn unbooked(&mut self, t: f64, before: &[DVec2], x: &[DVec2]) -> f64 {
+        let still = vec![DVec2::ZERO; x.len()];
+        let mut force = still.clone();
+        let potentials = self.potentials(&self.curve(t, x, &still));
+        let (forces, curve) = self.forces(t, x, &still);
+        for (acting, potential) in forces.iter_mut().zip(potentials) {
+            if potential.is_none() && acting.add(&curve, &mut force).is_err() {
+                return 0.0; // the run ends at this very place
+            }
+        }
+        let moved = x.iter().zip(before).zip(&force);
+        self.body.spacing * moved.map(|((x, from), f)| f.dot(*x - *from)).sum::<f64>()
+    }
+
+    /// What the contacts of a step have taken, now that they left the nodes at `x`.
+    pub(crate) fn book_contact(&mut self, t: f64, x: &[DVec2], v: &[DVec2]) {
+        let Some(mut account) = self.account.take() else {
+            return;
+        };
+        if account.x.len() == x.len() {
+            let before = self.mechanical(t, &account.x, &account.v);
+            let after = self.mechanical(t, x, v);
+            let lost = before - after + self.unbooked(t, &account.x, x);
+            account.lost = Some(account.lost.unwrap_or(0.0) + lost);
+        }
+        account.x.clear();
+        self.account = Some(account);
+    }
+}

@@ -1,0 +1,160 @@
+//! The force field of a picture.
+
+use std::any::Any;
+use std::sync::Arc;
+
+use field::{ForceField, Interpolation};
+use glam::{DMat2, DVec2};
+use integrator::{Fault, FaultKind};
+
+use super::{Curve, Force, Pull};
+
+/// How the force of a picture is read between its pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sampling {
+    /// Bilinear in the four pixels around; the position is clamped to the picture.
+    Bilinear,
+    /// The report's rule: along one axis only, from the rounded pixel, and a fault off the picture
+    /// (D51, D54).
+    OneAxis,
+}
+
+/// The force field of a picture, felt by the nodes.
+///
+/// It has no energy of its own: between pixel centers a sampled field is no gradient, and the
+/// report's is none anywhere (D39).
+#[derive(Debug, Clone)]
+pub struct ImageForce {
+    field: Arc<ForceField>,
+    sampling: Sampling,
+    scratch: Vec<DVec2>,
+}
+
+impl ImageForce {
+    /// The force of `field`; shared, since it is large and never changes.
+    #[must_use]
+    pub const fn new(field: Arc<ForceField>, sampling: Sampling) -> Self {
+        let scratch = Vec::new();
+        Self {
+            field,
+            sampling,
+            scratch,
+        }
+    }
+
+    /// The field.
+    #[must_use]
+    pub const fn field(&self) -> &Arc<ForceField> {
+        &self.field
+    }
+
+    /// How it is read.
+    #[must_use]
+    pub const fn sampling(&self) -> Sampling {
+        self.sampling
+    }
+}
+
+impl Force for ImageForce {
+    fn name(&self) -> &'static str {
+        "image"
+    }
+
+    /// Faults: [`FaultKind::OutsideField`] under the report's rule off the picture,
+    /// [`FaultKind::NotFinite`] for a node that is no place.
+    fn add(&mut self, curve: &Curve<'_>, force: &mut [DVec2]) -> Result<(), Fault> {
+        let x = curve.x;
+        match self.sampling {
+            Sampling::Bilinear => {
+                self.scratch.resize(x.len(), DVec2::ZERO);
+                self.field
+                    .sample_into(x, Interpolation::Bilinear, &mut self.scratch);
+                // a place that is none has a force that is none; found by the sum, once
+                if !self.scratch.iter().sum::<DVec2>().is_finite()
+                    && let Some(node) = x.iter().position(|p| !p.is_finite())
+                {
+                    return Err(Fault {
+                        node,
+                        at: x[node],
+                        kind: FaultKind::NotFinite,
+                    });
+                }
+                for (f, &sampled) in force.iter_mut().zip(&self.scratch) {
+                    *f += sampled;
+                }
+            }
+            Sampling::OneAxis => {
+                for (node, (f, &at)) in force.iter_mut().zip(x).enumerate() {
+                    let fault = |_| Fault {
+                        node,
+                        at,
+                        kind: FaultKind::OutsideField,
+                    };
+                    *f += self.field.at_report(at).map_err(fault)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn add_slope(&mut self, curve: &Curve<'_>, slope: &mut [DMat2]) -> bool {
+        if self.sampling == Sampling::OneAxis {
+            return false; // the report's rule jumps between pixels and has no slope there
+        }
+        for (slope, &p) in slope.iter_mut().zip(curve.x) {
+            *slope += self.field.sample_with_slope(p, Interpolation::Bilinear).1;
+        }
+        true
+    }
+
+    fn pull(&self, curve: Option<&Curve<'_>>) -> Pull {
+        let stiffness = match curve {
+            Some(curve) => curve
+                .x
+                .iter()
+                .map(|&p| push_back(self.field.sample_with_slope(p, Interpolation::Bilinear).1))
+                .fold(0.0, f64::max),
+            None => steepest_in(&self.field),
+        };
+        Pull {
+            stiffness,
+            damping: 0.0,
+        }
+    }
+
+    fn boxed(&self) -> Box<dyn Force> {
+        Box::new(self.clone())
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+}
+
+/// The steepest push back anywhere between the pixel centers.
+///
+/// In a cell the slope along x is linear in y and the other way round, and the steepest push back is
+/// a convex function of both: it is largest in a corner.
+fn steepest_in(field: &ForceField) -> f64 {
+    let at = |column: usize, row: usize| field.pixel(column, row).unwrap_or(DVec2::ZERO);
+    let mut steepest = 0.0_f64;
+    for row in 1..field.height() {
+        for column in 1..field.width() {
+            let [a, b] = [at(column - 1, row - 1), at(column, row - 1)];
+            let [c, d] = [at(column - 1, row), at(column, row)];
+            for x in [b - a, d - c] {
+                for y in [c - a, d - b] {
+                    steepest = steepest.max(push_back(DMat2::from_cols(x, y)));
+                }
+            }
+        }
+    }
+    steepest
+}
+
+/// The largest eigenvalue of −½ (J + Jᵀ), at least 0.
+pub(crate) fn push_back(slope: DMat2) -> f64 {
+    let (a, d) = (-slope.x_axis.x, -slope.y_axis.y);
+    let b = -0.5 * (slope.x_axis.y + slope.y_axis.x);
+    (0.5 * (a + d) + (0.5 * (a - d)).hypot(b)).max(0.0)
+}

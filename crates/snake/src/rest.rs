@@ -1,0 +1,214 @@
+//! Whether a snake is at rest, and if it never will be, why.
+//!
+//! A test on pixels per step calls anything at rest that moves slowly enough or whose step is small
+//! enough. Here three things must hold together, and each is a ratio, so that neither the number of
+//! nodes nor the step, the size of a pixel or the scale of the grey levels enters:
+//!
+//! - *balance*: the net force on every node is a small share of the forces that cancel there;
+//! - *travel*: since the run was five sixths as old as it is now, no node has gone farther than a small
+//!   share of the curve's size, and at its speed none would in as long again;
+//! - *energy*: what is left of the motion is a small share of the most there was.
+
+use glam::DVec2;
+use integrator::{State, System};
+
+use crate::{ImageForce, Snake};
+
+/// What counts as rest. All three are ratios.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rest {
+    /// Net force on a node against the largest forces that any node of the run has felt.
+    pub balance: f64,
+    /// Way of a node in the last sixth of the run against the size of the curve (half the diagonal of
+    /// its box at the start).
+    pub travel: f64,
+}
+
+impl Default for Rest {
+    /// A thousandth of the forces, and a ten-thousandth of the size: 0.006 pixels for a circle of
+    /// radius 42.
+    fn default() -> Self {
+        Self {
+            balance: 1e-3,
+            travel: 1e-4,
+        }
+    }
+}
+
+/// What is left of the kinetic energy at rest, against the most there was.
+const CALM: f64 = 1e-6;
+
+/// The last share of the run in which travel is measured.
+const LAST: f64 = 1.0 / 6.0;
+
+/// Windows in which it must have been as far and come back to be called a cycle. The run grows by a
+/// fifth from window to window, so the last is nine times as long as the first: what fades by less
+/// than a hundredth meanwhile will not fade in any time one would wait.
+const SWINGS: usize = 12;
+
+/// What a look found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Verdict {
+    Moving,
+    Rest,
+    Cycle { reach: f64 },
+    Lost,
+    Collapsed,
+}
+
+/// Follows a run and judges it.
+#[derive(Debug)]
+pub(crate) struct Watch {
+    rest: Rest,
+    size: f64,
+    begin: f64,
+    /// Where the nodes were at the beginning of the present window, and when.
+    mark: Vec<DVec2>,
+    since: f64,
+    /// Steps taken before the first window begins to count.
+    looks: u64,
+    /// Most kinetic energy and largest force so far.
+    liveliest: f64,
+    strongest: f64,
+    /// Farthest from the mark in this window, and how near it came again afterwards.
+    far: f64,
+    near: f64,
+    /// The same of the windows before that went to and fro.
+    swings: Vec<f64>,
+    net: Vec<DVec2>,
+    one: Vec<DVec2>,
+}
+
+impl Watch {
+    pub(crate) fn new(rest: Rest, snake: &mut Snake, state: &State) -> Self {
+        let n = state.len();
+        let mut watch = Self {
+            rest,
+            size: size(&state.x),
+            begin: state.t,
+            mark: state.x.clone(),
+            since: state.t,
+            looks: 0,
+            liveliest: 0.0,
+            strongest: 0.0,
+            far: 0.0,
+            near: f64::INFINITY,
+            swings: Vec::new(),
+            net: vec![DVec2::ZERO; n],
+            one: vec![DVec2::ZERO; n],
+        };
+        watch.liveliest = kinetic(snake, state);
+        watch.forces(snake, state);
+        watch
+    }
+
+    /// Look at the state after a step. O(n), and the forces once a window.
+    pub(crate) fn look(&mut self, snake: &mut Snake, state: &State) -> Verdict {
+        self.looks += 1;
+        self.liveliest = self.liveliest.max(kinetic(snake, state));
+        let mut away = 0.0_f64;
+        for (x, mark) in state.x.iter().zip(&self.mark) {
+            away = away.max(x.distance_squared(*mark));
+        }
+        let away = away.sqrt();
+        if away > self.far {
+            (self.far, self.near) = (away, away);
+        } else {
+            self.near = self.near.min(away);
+        }
+        // a window is the last sixth of the run; a few steps at the least, or rounding decides
+        let window = state.t - self.since;
+        if self.looks < 8 || window < LAST * (state.t - self.begin) {
+            return Verdict::Moving;
+        }
+        let verdict = self.judge(snake, state, window);
+        self.looks = 0;
+        self.mark.copy_from_slice(&state.x);
+        self.since = state.t;
+        (self.far, self.near) = (0.0, f64::INFINITY);
+        verdict
+    }
+
+    /// At the end of a window.
+    fn judge(&mut self, snake: &mut Snake, state: &State, window: f64) -> Verdict {
+        if size(&state.x) < 0.01 * self.size {
+            return Verdict::Collapsed;
+        }
+        if lost(snake, state) {
+            return Verdict::Lost;
+        }
+        let net = self.forces(snake, state);
+        let speed = state.v.iter().map(|v| v.length()).fold(0.0, f64::max);
+        let most = self.rest.travel * self.size;
+        let slow = self.far <= most && speed * window <= most;
+        let calm = kinetic(snake, state) <= CALM * self.liveliest;
+        if slow && calm && net <= self.rest.balance * self.strongest {
+            return Verdict::Rest;
+        }
+        // to and fro: it was far and came back, window after window, and always as far
+        if self.near < 0.25 * self.far && self.far > most {
+            self.swings.push(self.far);
+        } else {
+            self.swings.clear();
+        }
+        let last = &self.swings[self.swings.len().saturating_sub(SWINGS)..];
+        let (least, reach) = last
+            .iter()
+            .fold((f64::INFINITY, 0.0_f64), |(low, high), &far| {
+                (low.min(far), high.max(far))
+            });
+        if last.len() == SWINGS && least > 0.99 * reach {
+            Verdict::Cycle { reach }
+        } else {
+            Verdict::Moving
+        }
+    }
+
+    /// The largest net force on a node; the strongest single forces are remembered.
+    fn forces(&mut self, snake: &mut Snake, state: &State) -> f64 {
+        let still = State {
+            v: vec![DVec2::ZERO; state.len()],
+            ..state.clone()
+        };
+        snake.elastic(&still.x, &mut self.net);
+        let mut felt: Vec<f64> = self.net.iter().map(|f| f.length()).collect();
+        for index in 0..snake.world().forces.len() {
+            self.one.fill(DVec2::ZERO);
+            if snake.force_of(index, &still, &mut self.one).is_err() {
+                return f64::INFINITY; // the next step ends the run with its own outcome
+            }
+            for i in 0..state.len() {
+                self.net[i] += self.one[i];
+                felt[i] += self.one[i].length();
+            }
+        }
+        self.strongest = felt.iter().copied().fold(self.strongest, f64::max);
+        snake.largest_push(&still, &self.net)
+    }
+}
+
+fn kinetic(snake: &Snake, state: &State) -> f64 {
+    let squares = state.v.iter().zip(snake.mass());
+    squares.map(|(v, m)| m * v.length_squared()).sum()
+}
+
+/// Half the diagonal of the box around the nodes.
+fn size(x: &[DVec2]) -> f64 {
+    let first = x.first().copied().unwrap_or(DVec2::ZERO);
+    let (low, high) = x
+        .iter()
+        .fold((first, first), |(low, high), p| (low.min(*p), high.max(*p)));
+    0.5 * (high - low).length()
+}
+
+/// Whether most nodes are at the border of every picture the snake feels, or beyond.
+fn lost(snake: &Snake, state: &State) -> bool {
+    let pictures = snake.world().forces.iter();
+    let mut fields = pictures.filter_map(|acting| acting.downcast::<ImageForce>());
+    fields.any(|image| {
+        let field = image.field();
+        let far = DVec2::new(field.width() as f64, field.height() as f64) - 1.0;
+        let inside = |p: &&DVec2| p.cmpgt(DVec2::ZERO).all() && p.cmplt(far).all();
+        2 * state.x.iter().filter(inside).count() < state.len()
+    })
+}
