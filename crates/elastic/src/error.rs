@@ -52,6 +52,25 @@ pub enum ElasticError {
         /// What was given.
         value: f64,
     },
+    /// A spacing whose power nothing can be divided by.
+    #[error("1 over the spacing to the power {power} must be an ordinary number, got a spacing of {spacing}{}", coincident(*.spacing))]
+    BadPower {
+        /// What was given.
+        spacing: f64,
+        /// The power that the order of the kernel asks for.
+        power: usize,
+    },
+    /// A kernel without weights, or of too high an order.
+    #[error("a kernel has weights of the orders 0 to at most {highest}, so 1 to {} of them, got {weights}", highest + 1)]
+    BadOrder {
+        /// The highest order that would do.
+        highest: usize,
+        /// How many weights were given.
+        weights: usize,
+    },
+    /// A kernel of any order with an end that only a material of order 2 has.
+    #[error("the ends of a kernel cannot be clamped; a material of order 2 can")]
+    ClampedKernel,
     /// The stiffness matrix is not finite, though each density is.
     #[error("the densities are too large for a spacing of {spacing}: the stiffness is not finite")]
     TooStiff {
