@@ -52,6 +52,14 @@ pub enum ElasticError {
         /// What was given.
         value: f64,
     },
+    /// An edge that nothing can be divided by.
+    #[error("edge {index} must be from 1e-75 to 1e75 long, got {length}{}", if *.length == 0.0 { "; do its nodes coincide?" } else { "" })]
+    BadEdge {
+        /// Which edge: from the node of this number to the next.
+        index: usize,
+        /// How long it is.
+        length: f64,
+    },
     /// A spacing whose power nothing can be divided by.
     #[error("1 over the spacing to the power {power} must be an ordinary number, got a spacing of {spacing}{}", coincident(*.spacing))]
     BadPower {

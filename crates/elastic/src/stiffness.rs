@@ -104,7 +104,7 @@ pub fn stiffness_as_printed(
 }
 
 /// Spacings whose fourth power is a number: whatever the unit, no curve is drawn outside these.
-const SPACINGS: RangeInclusive<f64> = 1e-75..=1e75;
+pub(crate) const SPACINGS: RangeInclusive<f64> = 1e-75..=1e75;
 
 /// `1/h²` and `1/h⁴`.
 fn inverse_powers(spacing: f64) -> Result<(f64, f64), ElasticError> {
@@ -116,7 +116,7 @@ fn inverse_powers(spacing: f64) -> Result<(f64, f64), ElasticError> {
 }
 
 /// Adds `weight · r rᵀ`, where `r` has the coefficients at those nodes that are real.
-fn add<const M: usize>(
+pub(crate) fn add<const M: usize>(
     k: &mut Pentadiagonal,
     weight: f64,
     nodes: [Option<usize>; M],

@@ -66,6 +66,8 @@ pub enum Topology {
 pub(crate) struct Edge {
     /// Which tension it takes.
     pub(crate) weight: usize,
+    /// Which edge of the curve it is as long as.
+    pub(crate) length: usize,
     pub(crate) nodes: [Option<usize>; 2],
 }
 
@@ -73,6 +75,8 @@ pub(crate) struct Edge {
 pub(crate) struct Bend {
     /// Which rigidity it takes.
     pub(crate) weight: usize,
+    /// Which edges of the curve its two arms are as long as.
+    pub(crate) lengths: [usize; 2],
     /// How much of a spacing it stands for: half, where the other half is a mirror image.
     pub(crate) share: f64,
     pub(crate) nodes: [Option<usize>; 3],
@@ -196,6 +200,7 @@ impl Topology {
     fn edge(self, k: usize, n: usize) -> Edge {
         Edge {
             weight: self.weight(k, n),
+            length: self.length(k, n),
             nodes: [self.node(k, n), self.node(k + 1, n)],
         }
     }
@@ -212,6 +217,7 @@ impl Topology {
         }
         Bend {
             weight: self.weight(k, n),
+            lengths: [self.length(k - 1, n), self.length(k, n)],
             share,
             nodes,
         }
@@ -226,6 +232,15 @@ impl Topology {
             None
         } else {
             Some(k - BEFORE)
+        }
+    }
+
+    /// The index of the edge from position `k` on: beyond an end, that of the last edge before it.
+    fn length(self, k: usize, n: usize) -> usize {
+        if self.is_closed() {
+            (k + n - BEFORE) % n
+        } else {
+            k.saturating_sub(BEFORE).min(n - 2)
         }
     }
 
