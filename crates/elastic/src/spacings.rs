@@ -119,7 +119,7 @@ impl Spacings {
     /// ```
     ///
     /// with ξ of [`energy`](Self::energy). `e` and `force` have one value a node; `force` is overwritten. O(n), allocates
-    /// nothing; some four times the work of one spacing for all. The sum of `Dᵢ F[i]` is 0 where nothing is tethered or
+    /// nothing; some ten times the work of one spacing for all. The sum of `Dᵢ F[i]` is 0 where nothing is tethered or
     /// anchored. The material is trusted to fit, as by [`elastic_force`](crate::elastic_force).
     pub fn force(&self, e: &[DVec2], material: &Material, force: &mut [DVec2]) {
         let n = self.shares.len();
