@@ -7,6 +7,7 @@
 //! A point (x, y) is transformed as the complex number x + i y. The eigenvalues are real, so the
 //! coordinates do not mix.
 
+use std::cell::RefCell;
 use std::fmt;
 use std::sync::Arc;
 
@@ -56,14 +57,16 @@ impl Circulant {
         // with σ = sin² θ/2; small eigenvalues keep their digits where cosines would cancel
         let (sum, tension) = (d + 2.0 * (f + s), -(f + 4.0 * s));
         let mut eigenvalues = Vec::with_capacity(n);
-        for k in 0..n {
-            // exactly the same for a wave and the one that runs the other way
-            let wave = count(k.min(n - k)) / count(n);
+        for k in 0..=n / 2 {
+            let wave = count(k) / count(n);
             let sigma = (std::f64::consts::PI * wave).sin().powi(2);
             eigenvalues.push(sum + 4.0 * sigma * (tension + 4.0 * sigma * s));
         }
-        let mut planner = FftPlanner::new();
-        let (forward, inverse) = (planner.plan_fft_forward(n), planner.plan_fft_inverse(n));
+        // exactly the same for a wave and the one that runs the other way
+        for k in n / 2 + 1..n {
+            eigenvalues.push(eigenvalues[n - k]);
+        }
+        let (forward, inverse) = plans(n);
         let room = forward
             .get_inplace_scratch_len()
             .max(inverse.get_inplace_scratch_len());
@@ -169,6 +172,34 @@ impl Circulant {
             None => Ok(self.eigenvalues.iter().map(|e| 1.0 / e).collect()),
         }
     }
+}
+
+type Plan = Arc<dyn Fft<f64>>;
+
+/// The transforms planned lately, with their lengths: the plan takes longer than ten transforms.
+const KEPT: usize = 8;
+
+thread_local! {
+    static PLANS: RefCell<Vec<(usize, Plan, Plan)>> = const { RefCell::new(Vec::new()) };
+}
+
+/// The transforms of length `n`, there and back. The last few lengths of each thread are kept.
+fn plans(n: usize) -> (Plan, Plan) {
+    PLANS.with_borrow_mut(|kept| {
+        let (forward, inverse) = match kept.iter().position(|(length, ..)| *length == n) {
+            Some(at) => {
+                let (_, forward, inverse) = kept.remove(at);
+                (forward, inverse)
+            }
+            None => {
+                let mut planner = FftPlanner::new();
+                (planner.plan_fft_forward(n), planner.plan_fft_inverse(n))
+            }
+        };
+        kept.truncate(KEPT - 1);
+        kept.insert(0, (n, Arc::clone(&forward), Arc::clone(&inverse)));
+        (forward, inverse)
+    })
 }
 
 /// A count as a number.

@@ -8,7 +8,7 @@ use banded::{Complex, ComplexOperatorFactor, ComplexPoint};
 use glam::DVec2;
 
 use crate::contact::Contacts;
-use crate::newmark::Newmark;
+use crate::newmark::StandIn;
 use crate::solver::Solver;
 use crate::stepper::{self, Clock, Mass};
 use crate::tableau::{Eigenpair, Method, Tableau};
@@ -20,21 +20,63 @@ const ROUNDS: usize = 30;
 /// When two rounds agree, relative to the largest external force.
 const AGREEMENT: f64 = 1e-13;
 
+/// How the end of a step depends on the solution of each eigenvalue's system.
+#[derive(Debug, Clone, Copy)]
+struct Share {
+    /// Twice the weight of which the real part counts.
+    complex: Complex,
+    real: f64,
+}
+
+/// Where a step ends: `x⁺ = x + place`, `v⁺ = keep v + speed`.
+#[derive(Debug, Clone, Copy)]
+struct Landing {
+    place: Share,
+    speed: Share,
+    keep: f64,
+}
+
+impl Landing {
+    fn new(method: Method, tableau: &Tableau, dt: f64) -> Self {
+        // in terms of the stages' offsets; velocities at the stages are B times those, over dt
+        let (end, keep) = match method {
+            Method::Radau5 => ([0.0, 0.0, 1.0], 0.0),
+            Method::Gauss4 => ([-3.0_f64.sqrt(), 3.0_f64.sqrt(), 0.0], 1.0),
+        };
+        let fast = |j: usize| (0..3).map(|i| end[i] * tableau.inverse[i][j]).sum::<f64>() / dt;
+        let share = |weights: [f64; 3]| {
+            let right = tableau.complex.right;
+            let pair = |k: usize| right[k] * (2.0 * weights[k]);
+            let own = |real: Eigenpair<f64>| (0..3).map(|k| real.right[k] * weights[k]).sum();
+            Share {
+                complex: pair(0) + pair(1) + pair(2),
+                real: tableau.real.map_or(0.0, own),
+            }
+        };
+        Self {
+            place: share(end),
+            speed: share([fast(0), fast(1), fast(2)]),
+            keep,
+        }
+    }
+}
+
 /// Gauss's method of order 4 or Radau's of order 5, external forces at every stage.
 ///
-/// External forces are found in rounds with the same factors: two when they do not depend on
-/// positions, a few when they change less over a step than inertia and stiffness resist. Where they
+/// External forces are found in rounds with the same factors: one when they are constant, two when they
+/// do not depend on positions, a few when they change less over a step than inertia and stiffness resist. Where they
 /// change more, rounds stop when they no longer approach each other, and order is lost.
 #[derive(Debug)]
 pub(crate) struct Collocation {
     method: Method,
     tableau: Tableau,
+    landing: Landing,
     clock: Clock,
     /// The real eigenvalue's system, which Gauss's method has none of.
     real: Option<Solver>,
     complex: ComplexOperatorFactor,
     /// For the steps in which something is touched.
-    stand_in: Newmark,
+    stand_in: StandIn,
     shift: Vec<Complex>,
     elastic: Vec<DVec2>,
     /// External forces at the stages.
@@ -71,7 +113,7 @@ impl Collocation {
             method,
             clock: Clock::new(state, dt),
             real: real.transpose()?,
-            stand_in: Newmark::stand_in(name, method.need(), system, state, dt)?,
+            stand_in: StandIn::new(name, method.need(), dt),
             complex: system.stiffness().factor_shifted(&shift)?,
             shift,
             elastic: zeros(),
@@ -83,6 +125,7 @@ impl Collocation {
             next_x: zeros(),
             next_v: zeros(),
             contacts: Contacts::new(n),
+            landing: Landing::new(method, &tableau, dt),
             tableau,
         })
     }
@@ -197,6 +240,58 @@ impl Collocation {
         Ok(())
     }
 
+    /// The whole step under forces that stay the same, which `elastic` holds: one round, and the end from
+    /// the solutions without the stages between.
+    fn straight(&mut self, system: &dyn System, state: &State) {
+        let (mass, held, dt) = (system.mass(), system.held(), self.clock.dt);
+        let n = state.len();
+        let (x, v, force) = (&state.x[..n], &state.v[..n], &self.elastic[..n]);
+        let complex = self.tableau.complex;
+        let sum = complex
+            .left
+            .iter()
+            .fold(Complex::default(), |sum, &p| sum + p);
+        let moved = complex.z * sum * (1.0 / dt);
+        for (i, part) in self.complex_part[..n].iter_mut().enumerate() {
+            let (push, carried) = if held[i] {
+                (DVec2::ZERO, DVec2::ZERO)
+            } else {
+                (force[i], mass[i] * v[i])
+            };
+            *part = ComplexPoint::new(
+                sum.re * push + moved.re * carried,
+                sum.im * push + moved.im * carried,
+            );
+        }
+        self.complex.solve(&mut self.complex_part);
+        let (place, speed) = (self.landing.place, self.landing.speed);
+        let keep = self.landing.keep;
+        let parts = &self.complex_part[..n];
+        let (next_x, next_v) = (&mut self.next_x[..n], &mut self.next_v[..n]);
+        for i in 0..n {
+            let part = parts[i];
+            next_x[i] = x[i] + (place.complex.re * part.re - place.complex.im * part.im);
+            next_v[i] = keep * v[i] + (speed.complex.re * part.re - speed.complex.im * part.im);
+        }
+        if let (Some(real), Some(solver)) = (self.tableau.real, &self.real) {
+            let sum: f64 = real.left.iter().sum();
+            let moved = sum * real.z / dt;
+            for (i, part) in self.real_part[..n].iter_mut().enumerate() {
+                *part = if held[i] {
+                    DVec2::ZERO
+                } else {
+                    sum * force[i] + moved * mass[i] * v[i]
+                };
+            }
+            solver.solve(&mut self.real_part);
+            let parts = &self.real_part[..n];
+            for i in 0..n {
+                next_x[i] += place.real * parts[i];
+                next_v[i] += speed.real * parts[i];
+            }
+        }
+    }
+
     /// The end of the step from its stages.
     fn finish(&mut self, state: &State) {
         if self.method == Method::Radau5 {
@@ -222,12 +317,17 @@ impl Stepper for Collocation {
         let (dt, t) = (self.clock.dt, self.clock.now());
         self.advance(system, t + 0.5 * dt, &state.x)?;
         system.elastic(&state.x, &mut self.elastic);
-        for (stage, force) in self.forces.iter_mut().enumerate() {
-            let at = t + self.tableau.nodes[stage] * dt;
-            stepper::external(system, at, &state.x, &state.v, force)?;
+        if system.external_is_constant() {
+            system.external(t, &state.x, &state.v, &mut self.elastic)?;
+            self.straight(system, state);
+        } else {
+            for (stage, force) in self.forces.iter_mut().enumerate() {
+                let at = t + self.tableau.nodes[stage] * dt;
+                stepper::external(system, at, &state.x, &state.v, force)?;
+            }
+            self.settle(system, state)?;
+            self.finish(state);
         }
-        self.settle(system, state)?;
-        self.finish(state);
         for (v, &held) in self.next_v.iter_mut().zip(system.held()) {
             if held {
                 *v = DVec2::ZERO;

@@ -93,7 +93,7 @@ pub enum SchemeError {
         why: String,
     },
     /// No scheme has this name.
-    #[error("there is no scheme `{name}`; the nearest is `{nearest}`")]
+    #[error("there is no scheme {name}; the nearest is {nearest}")]
     Unknown {
         /// The name given.
         name: String,

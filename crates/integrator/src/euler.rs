@@ -150,7 +150,7 @@ impl Stepper for Euler {
         stepper::external(system, at, &state.x, &state.v, &mut self.force)?;
         self.increment();
         self.place(&state.x);
-        if self.rule == Rule::Backward {
+        if self.rule == Rule::Backward && !system.external_is_constant() {
             self.settle(system, &state.x)?;
         }
         stepper::finite(&self.next_x)?;

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::contact::Contacts;
 use crate::modes::Modes;
-use crate::newmark::Newmark;
+use crate::newmark::StandIn;
 use crate::oscillator::Oscillator;
 use crate::stepper::{self, Clock, Mass};
 use crate::{Fault, SchemeError, State, Stepper, System};
@@ -36,7 +36,8 @@ impl Join {
 /// Exact for any step when no external force acts; all regimes and the double root. With
 /// [`Join::Kicks`], v gets half of `dt f / μ` before and half after. With [`Join::Ramp`], `a` holds `f` as
 /// well, and the step is corrected by `W Δf / dt` and `Q Δf / dt` with `Δf` its change over the step, so
-/// that constant forces are exact too.
+/// that constant forces are exact too. Where the system knows that they are constant, both are the same
+/// scheme, without an error and at the cost of a free step.
 #[derive(Debug)]
 pub(crate) struct Exact {
     join: Join,
@@ -53,7 +54,7 @@ pub(crate) struct Exact {
     next_x: Vec<DVec2>,
     next_v: Vec<DVec2>,
     /// For the steps in which something is touched.
-    stand_in: Newmark,
+    stand_in: StandIn,
     contacts: Contacts,
 }
 
@@ -81,7 +82,7 @@ impl Exact {
             mode_a: zeros(),
             next_x: zeros(),
             next_v: zeros(),
-            stand_in: Newmark::stand_in(join.name(), Mass::Needed, system, state, dt)?,
+            stand_in: StandIn::new(join.name(), Mass::Needed, dt),
             contacts: Contacts::new(state.len()),
         };
         stepper.respond();
@@ -90,13 +91,18 @@ impl Exact {
 
     fn respond(&mut self) {
         let (c, dt) = (self.modes.damping, self.clock.dt);
+        let stiffness = &self.modes.stiffness;
         self.responses.clear();
-        self.responses.extend(
-            self.modes
-                .stiffness
-                .iter()
-                .map(|&k| Oscillator::new(c, k, dt)),
-        );
+        for (i, &k) in stiffness.iter().enumerate() {
+            // a wave and the one that runs the other way
+            let twin = stiffness.len() - i;
+            let known = self.responses.get(twin).copied();
+            let response = match known {
+                Some(known) if stiffness[twin].to_bits() == k.to_bits() => known,
+                _ => Oscillator::new(c, k, dt),
+            };
+            self.responses.push(response);
+        }
     }
 
     /// Bring the system to time `t`, and the modes with it.
@@ -108,6 +114,9 @@ impl Exact {
         let name = self.join.name();
         self.modes = Modes::new(name, system).map_err(|_| stepper::unsolvable(x))?;
         self.respond();
+        if system.external_is_constant() {
+            self.ready = false;
+        }
         Ok(())
     }
 
@@ -121,7 +130,12 @@ impl Exact {
                 self.force[i] /= mass[i];
             }
         }
-        self.modes.amplitudes(&self.next_v, &mut self.mode_v);
+        // at rest there is nothing to transform
+        if self.next_v.iter().all(|v| *v == DVec2::ZERO) {
+            self.mode_v.fill(DVec2::ZERO);
+        } else {
+            self.modes.amplitudes(&self.next_v, &mut self.mode_v);
+        }
         self.modes.amplitudes(&self.force, &mut self.mode_a);
         for (response, (v, a)) in self
             .responses
@@ -196,12 +210,23 @@ impl Stepper for Exact {
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let t = self.clock.now();
         self.advance(system, t, &state.x)?;
-        if !(self.join == Join::Kicks && self.ready) {
+        let constant = system.external_is_constant();
+        if !(self.ready && (constant || self.join == Join::Kicks)) {
             stepper::external(system, t, &state.x, &state.v, &mut self.external)?;
         }
         self.next_v.copy_from_slice(&state.v);
         system.elastic(&state.x, &mut self.force);
         match self.join {
+            _ if constant => {
+                for (force, external) in self.force.iter_mut().zip(&self.external) {
+                    *force += external;
+                }
+                self.flow(system, &state.x);
+                if self.met(system, state)? {
+                    return Ok(());
+                }
+                self.ready = true;
+            }
             Join::Kicks => {
                 self.kick(system);
                 self.flow(system, &state.x);

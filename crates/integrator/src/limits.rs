@@ -53,31 +53,51 @@ impl Loads {
     }
 }
 
-/// The largest step of the report's scheme: 4 M − 2 dt C − dt² K positive definite.
-pub(crate) fn report(system: &dyn System) -> Option<f64> {
+/// Whether a step is stable in the report's scheme: 4 M − 2 dt C − dt² K positive definite.
+fn report_stable(system: &dyn System) -> impl Fn(f64) -> bool {
     let loads = Loads::new(system);
-    largest(|dt| {
+    move |dt| {
         let diagonal = |i: usize| {
             let damping = loads.damping[i] + loads.contact_damping[i];
             4.0 * loads.mass[i] - 2.0 * dt * damping - dt * dt * loads.contact[i]
         };
         let diagonal: Vec<f64> = (0..loads.mass.len()).map(diagonal).collect();
         positive(system.stiffness(), -dt * dt, &diagonal)
-    })
+    }
 }
 
-/// The largest step of leapfrog: 4 M − dt² K positive definite, whatever the damping.
+/// Whether a step is stable in leapfrog: 4 M − dt² K positive definite, whatever the damping.
 ///
 /// The damping of penalty contacts is evaluated half a step late and does count, as in the report's.
-pub(crate) fn leapfrog(system: &dyn System) -> Option<f64> {
+fn leapfrog_stable(system: &dyn System) -> impl Fn(f64) -> bool {
     let loads = Loads::new(system);
-    largest(|dt| {
+    move |dt| {
         let diagonal = |i: usize| {
             4.0 * loads.mass[i] - 2.0 * dt * loads.contact_damping[i] - dt * dt * loads.contact[i]
         };
         let diagonal: Vec<f64> = (0..loads.mass.len()).map(diagonal).collect();
         positive(system.stiffness(), -dt * dt, &diagonal)
-    })
+    }
+}
+
+/// The largest step of the report's scheme.
+pub(crate) fn report(system: &dyn System) -> Option<f64> {
+    largest(report_stable(system))
+}
+
+/// The largest step of leapfrog.
+pub(crate) fn leapfrog(system: &dyn System) -> Option<f64> {
+    largest(leapfrog_stable(system))
+}
+
+/// Whether one test tells that `dt` is stable, which is most of the time; else the limit must be found.
+pub(crate) fn surely_stable(scheme: Scheme, system: &dyn System, dt: f64) -> bool {
+    match scheme {
+        // a little more than asked, for the rounding of the test
+        Scheme::Report => report_stable(system)(dt * (1.0 + 1e-9)),
+        Scheme::Leapfrog => leapfrog_stable(system)(dt * (1.0 + 1e-9)),
+        _ => false,
+    }
 }
 
 /// The largest step that is still `stable`, to a relative 1e-13; None if there is no end to it.

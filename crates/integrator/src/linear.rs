@@ -19,7 +19,7 @@ use crate::{Fault, SchemeError, State, Stepper, System};
 ///
 /// `G` is the part of ∂f/∂x that pulls back: its symmetric part without what is above zero, so that the
 /// matrix is positive definite at any step; what pushes away is left explicit. Where the system
-/// knows no slope, it is the scheme named imex. Factors a band twice as wide each step, which allocates. O(n).
+/// knows no slope, or a constant force, it is the scheme named imex. Factors a band twice as wide each step, which allocates. O(n).
 ///
 /// [baraff98].
 #[derive(Debug)]
@@ -112,7 +112,8 @@ impl Stepper for LinearlyImplicit {
             self.correction = correction.map_err(|_| stepper::unsolvable(&state.x))?;
         }
         stepper::external(system, t, &state.x, &state.v, &mut self.external)?;
-        let known = system.external_slope(t, &state.x, &mut self.slope);
+        let known =
+            !system.external_is_constant() && system.external_slope(t, &state.x, &mut self.slope);
         system.elastic(&state.x, &mut self.force);
         for i in 0..state.len() {
             self.force[i] += self.external[i] + system.mass()[i] / dt * state.v[i];

@@ -220,14 +220,10 @@ impl Newmark {
     ) -> Result<Self, SchemeError> {
         system.advance(state.t);
         stepper::check(Self::NAME, system, state, dt, Mass::Needed)?;
-        Self::stand_in(Self::NAME, Mass::Needed, system, state, dt)
+        Self::named(Self::NAME, Mass::Needed, system, state, dt)
     }
 
-    /// For the steps of another scheme in which something is touched.
-    ///
-    /// A contact in the middle of a long exact or high-order step would be met at its end with all
-    /// the energy of a deformation that never was. Here the step is solved with it.
-    pub(crate) fn stand_in(
+    fn named(
         name: &'static str,
         need: Mass,
         system: &dyn System,
@@ -265,12 +261,7 @@ impl Stepper for Newmark {
 
 impl Newmark {
     /// The same step at another's time `t`, which the other counts.
-    pub(crate) fn take(
-        &mut self,
-        system: &mut dyn System,
-        t: f64,
-        state: &mut State,
-    ) -> Result<(), Fault> {
+    fn take(&mut self, system: &mut dyn System, t: f64, state: &mut State) -> Result<(), Fault> {
         let dt = self.clock.dt;
         system.elastic(&state.x, &mut self.force);
         for i in 0..state.len() {
@@ -303,9 +294,53 @@ impl Newmark {
         std::mem::swap(&mut state.v, v);
         Ok(())
     }
+}
+
+/// Newmark's method for the steps of another scheme in which something is touched.
+///
+/// A contact in the middle of a long exact or high-order step would be met at its end with all
+/// the energy of a deformation that never was. Here the step is solved with it. Made at the first
+/// touch: many runs have none.
+#[derive(Debug)]
+pub(crate) struct StandIn {
+    name: &'static str,
+    need: Mass,
+    dt: f64,
+    made: Option<Newmark>,
+}
+
+impl StandIn {
+    pub(crate) const fn new(name: &'static str, need: Mass, dt: f64) -> Self {
+        Self {
+            name,
+            need,
+            dt,
+            made: None,
+        }
+    }
+
+    /// A step at time `t`, which the other scheme counts.
+    pub(crate) fn take(
+        &mut self,
+        system: &mut dyn System,
+        t: f64,
+        state: &mut State,
+    ) -> Result<(), Fault> {
+        let mut stepper = match self.made.take() {
+            Some(made) => made,
+            None => Newmark::named(self.name, self.need, system, state, self.dt)
+                .map_err(|_| stepper::unsolvable(&state.x))?,
+        };
+        let outcome = stepper.take(system, t, state);
+        self.made = Some(stepper);
+        outcome
+    }
 
     /// Make the factor again from the system as it is.
     pub(crate) fn rebuild(&mut self, system: &dyn System, x: &[DVec2]) -> Result<(), Fault> {
-        self.solver.rebuild(system, x)
+        match &mut self.made {
+            Some(made) => made.solver.rebuild(system, x),
+            None => Ok(()),
+        }
     }
 }

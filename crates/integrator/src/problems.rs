@@ -100,6 +100,10 @@ impl System for Springs {
         Ok(())
     }
 
+    fn external_is_constant(&self) -> bool {
+        self.pull == 0.0 && self.drive.0 == DVec2::ZERO
+    }
+
     fn external_slope(&mut self, _t: f64, _x: &[DVec2], slope: &mut [DMat2]) -> bool {
         slope.fill(DMat2::from_diagonal(DVec2::splat(-self.pull)));
         true

@@ -269,8 +269,11 @@ impl Scheme {
         if !(dt.is_finite() && dt > 0.0) {
             return Err(SchemeError::BadStep { dt });
         }
+        if force || limits::surely_stable(self, system, dt) {
+            return Ok(());
+        }
         match self.step_limit(system) {
-            Some(limit) if dt >= limit && !force => Err(SchemeError::AboveLimit {
+            Some(limit) if dt >= limit => Err(SchemeError::AboveLimit {
                 scheme: self.name(),
                 dt,
                 limit,

@@ -145,6 +145,14 @@ pub trait System {
         force: &mut [DVec2],
     ) -> Result<(), Fault>;
 
+    /// Whether the external force depends neither on place nor on velocity nor on time, as gravity does
+    /// not, until [`advance`](Self::advance) says that something changed.
+    ///
+    /// Schemes then ask for it once a step, and the exact ones have no error at all.
+    fn external_is_constant(&self) -> bool {
+        false
+    }
+
     /// Nodes that met an obstacle while going from `before` to `x`, appended to `touches`.
     ///
     /// `touches` comes empty, with room for one touch a node.
