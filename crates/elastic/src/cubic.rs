@@ -1,4 +1,4 @@
-//! Cubic splines over the index of their points.
+//! Cubic splines over the index of their points. Over other knots: `knots`.
 //!
 //! Knots stand at the whole numbers, so the equations for the second derivatives have the constant row
 //! 1, 4, 1 and a division-free right-hand side. Open splines are *not-a-knot*: the third derivative does not
@@ -55,6 +55,11 @@ impl Cubic {
                 .map(|i| piece(points, &second, i, (i + 1) % n))
                 .collect(),
         }
+    }
+
+    /// From pieces that are known, each over 0 to 1.
+    pub(crate) const fn from_pieces(pieces: Vec<[DVec2; 4]>) -> Self {
+        Self { pieces }
     }
 
     /// Number of pieces: u runs from 0 to this.

@@ -95,6 +95,16 @@ pub enum ElasticError {
         /// What was given.
         value: DVec2,
     },
+    /// A coordinate is so large that its square is no number.
+    #[error("{name} {index} must lie within 1e150 of the origin, got ({}, {})", .value.x, .value.y)]
+    TooFar {
+        /// What stands there: `node`, `point`.
+        name: &'static str,
+        /// Which one, from 0.
+        index: usize,
+        /// What was given.
+        value: DVec2,
+    },
     /// All points are one and the same, so the curve has no length.
     #[error("the {count} points all lie at ({}, {}), so the curve has no length; move one", .at.x, .at.y)]
     NoLength {

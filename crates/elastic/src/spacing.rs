@@ -53,7 +53,7 @@ pub fn center(nodes: &[DVec2], mass: Option<&[f64]>) -> DVec2 {
     nodes.iter().zip(mass).map(|(&v, &m)| m * v).sum::<DVec2>() / mass.iter().sum::<f64>()
 }
 
-/// Refuses nodes that are no curve: too few, not finite, or all in one place.
+/// Refuses nodes that are no curve: too few, not finite, farther out than 1e150, or all in one place.
 ///
 /// ```
 /// use elastic::{End, Topology, validate_nodes};
@@ -66,16 +66,27 @@ pub fn center(nodes: &[DVec2], mass: Option<&[f64]>) -> DVec2 {
 ///
 /// # Errors
 ///
-/// [`ElasticError::TooFewNodes`], [`ElasticError::NotFinite`] or [`ElasticError::NoLength`].
+/// [`ElasticError::TooFewNodes`], [`ElasticError::NotFinite`], [`ElasticError::TooFar`] or
+/// [`ElasticError::NoLength`].
 pub fn validate_nodes(nodes: &[DVec2], topology: Topology) -> Result<(), ElasticError> {
     topology.check_count(nodes.len())?;
     check_points("node", nodes)
 }
 
-/// Refuses points that are not finite, or all in one place.
+/// Coordinates whose squares are numbers with room for a sum of many.
+const FARTHEST: f64 = 1e150;
+
+/// Refuses points that are not finite, farther out than 1e150, or all in one place.
 pub(crate) fn check_points(name: &'static str, points: &[DVec2]) -> Result<(), ElasticError> {
     if let Some(index) = points.iter().position(|p| !p.is_finite()) {
         return Err(ElasticError::NotFinite {
+            name,
+            index,
+            value: points[index],
+        });
+    }
+    if let Some(index) = points.iter().position(|p| p.abs().max_element() > FARTHEST) {
+        return Err(ElasticError::TooFar {
             name,
             index,
             value: points[index],
@@ -170,5 +181,22 @@ mod tests {
             ));
         }
         assert_eq!(validate_nodes(&square(), free), Ok(()));
+    }
+
+    #[test]
+    fn coordinates_whose_squares_are_no_numbers_are_refused() {
+        let free = Topology::open(End::Free);
+        let mut nodes = square();
+        nodes[1].x = -1e151;
+        let refused = validate_nodes(&nodes, free).unwrap_err();
+        assert!(
+            refused
+                .to_string()
+                .starts_with("node 1 must lie within 1e150 of the origin, got (-1"),
+            "{refused}"
+        );
+        nodes[1].x = -1e150;
+        assert_eq!(validate_nodes(&nodes, free), Ok(()));
+        assert!(length(&nodes, true).is_finite());
     }
 }
