@@ -13,7 +13,7 @@
 //! | … only where someone looks | [`lazy_force`] |
 //! | edges in color, at several scales; lines; ends and corners | a strength grid and [`gradient_force`] |
 //! | edges of one polarity | [`SignedEdge`], which asks for the curve's normal |
-//! | what lies inside a curve and what outside | a [`Region`], which asks for the curve: [`TwoRegions`], [`LocalRegions`] |
+//! | what lies inside a curve and what outside | a [`Region`], which asks for the curve: [`TwoRegions`], [`LocalRegions`], [`LikelihoodRegions`] |
 //! | only some of the pixels | [`MaskedImage`] |
 //! | a longer reach | [`distance_force`], [`vector_flow`] (GVF), [`vector_convolution`] (VFC) |
 //!
@@ -25,8 +25,7 @@
 //! `[[row, column]]`. Images are checked at the door: no empty ones, no pixel that is NaN or infinite. One pixel,
 //! one row or a constant is a fine image; it has no edge and so no force.
 //!
-//! This crate does no I/O and knows nothing of what will feel the force. Not here yet: histogram
-//! regions, edges to sub-pixel.
+//! This crate does no I/O and knows nothing of what will feel the force. Not here yet: edges to sub-pixel.
 //!
 //! ```
 //! use field::{EdgeForce, Grid, edge_force};
@@ -70,7 +69,10 @@ pub use gradient::{Across, mask_x, mask_y};
 pub use grid::{Grid, LARGEST_PIXEL, LARGEST_SIGMA, MOST_PASSES};
 pub use masked::MaskedImage;
 pub use polarity::{Polarity, SignedEdge};
-pub use region::{LocalRegions, Means, Region, RegionScratch, TwoRegions};
+pub use region::{
+    Classes, Density, LikelihoodRegions, LocalRegions, MOST_CLASS_BYTES, MOST_CLASSES, Means,
+    Region, RegionScratch, TwoRegions,
+};
 pub use report::{REPORT_GAIN, REPORT_SCALE, ReportStages, report_force, report_stages};
 pub use sample::Interpolation;
 pub use smooth::{REPORT_PASSES, Smoothing, binomial_x, binomial_y, gaussian_weights};

@@ -3,10 +3,16 @@
 //! Sums over the inside of a polygon are differences of row sums at its border (Green's theorem), so a step costs
 //! the pixels the curve crosses, not its area. Not here yet: open curves, and holes.
 
+mod classes;
+mod cluster;
+mod likelihood;
 mod local;
+mod mixture;
 mod rows;
 mod two;
 
+pub use classes::{Classes, MOST_CLASS_BYTES, MOST_CLASSES};
+pub use likelihood::{Density, LikelihoodRegions};
 pub use local::LocalRegions;
 pub use two::{Means, TwoRegions};
 
@@ -36,6 +42,10 @@ pub trait Region: Debug + Send + Sync {
 #[derive(Debug, Clone, Default)]
 pub struct RegionScratch {
     crossings: Crossings,
+    /// Push, pixels on one side and slope of the cost by class.
+    table: Vec<f64>,
+    side: Vec<f64>,
+    slope: Vec<f64>,
 }
 
 /// Twice the area of a closed polygon with its sign.
