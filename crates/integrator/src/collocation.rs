@@ -351,6 +351,10 @@ impl Stepper for Collocation {
     fn dt(&self) -> f64 {
         self.clock.dt
     }
+
+    fn resume(&mut self, _system: &mut dyn System, state: &State) {
+        self.clock.restart(state);
+    }
 }
 
 fn fill(shift: &mut [Complex], system: &dyn System, z: Complex, dt: f64) {

@@ -326,4 +326,9 @@ impl Stepper for DormandPrince {
     fn dt(&self) -> f64 {
         self.clock.dt
     }
+
+    fn resume(&mut self, _system: &mut dyn System, state: &State) {
+        self.clock.restart(state);
+        self.ready = false;
+    }
 }

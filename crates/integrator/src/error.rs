@@ -92,6 +92,15 @@ pub enum SchemeError {
         /// What stands in the way, and what would do.
         why: String,
     },
+    /// A scheme that keeps one step, where steps were to change.
+    #[error(
+        "{scheme} keeps one step: its velocity belongs to it; leapfrog is the same with steps that \
+         may change"
+    )]
+    OneStep {
+        /// The scheme's name.
+        scheme: &'static str,
+    },
     /// No scheme has this name.
     #[error("there is no scheme {name}; the nearest is {nearest}")]
     Unknown {

@@ -171,4 +171,8 @@ impl Stepper for Euler {
     fn dt(&self) -> f64 {
         self.clock.dt
     }
+
+    fn resume(&mut self, _system: &mut dyn System, state: &State) {
+        self.clock.restart(state);
+    }
 }

@@ -205,4 +205,11 @@ impl Stepper for Leapfrog {
     fn dt(&self) -> f64 {
         self.clock.dt
     }
+
+    fn resume(&mut self, system: &mut dyn System, state: &State) {
+        self.clock.restart(state);
+        self.ready = false;
+        self.early.clear();
+        self.prepare(system);
+    }
 }

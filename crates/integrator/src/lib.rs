@@ -7,7 +7,8 @@
 //!
 //! An explicit scheme is stable up to a largest step, which [`Scheme::step_limit`] computes; the
 //! others take the elastic force at the end of the step, at the cost of one banded solve, and have
-//! no such limit.
+//! no such limit. [`Adaptive`] chooses the steps of any scheme by their error, and says why they are as
+//! long as they are.
 //!
 //! ```
 //! use integrator::{Scheme, Start, problems};
@@ -24,6 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod adaptive;
 mod collocation;
 mod contact;
 mod dormand_prince;
@@ -37,6 +39,7 @@ mod modes;
 mod newmark;
 mod oscillator;
 pub mod problems;
+mod reason;
 mod region;
 mod report;
 mod rk4;
@@ -46,14 +49,17 @@ mod solver;
 mod stepper;
 mod system;
 mod tableau;
+mod watched;
 
 #[cfg(test)]
 mod tests;
 
+pub use adaptive::Adaptive;
 pub use contact::kinetic_energy;
 pub use dormand_prince::DormandPrince;
 pub use error::SchemeError;
 pub use limits::{critical_damping, report_critical_damping};
+pub use reason::{Limit, Reason, Summary};
 pub use region::Mode;
 pub use report::report_steps;
 pub use scheme::Scheme;

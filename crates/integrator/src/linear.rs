@@ -147,6 +147,10 @@ impl Stepper for LinearlyImplicit {
     fn dt(&self) -> f64 {
         self.clock.dt
     }
+
+    fn resume(&mut self, _system: &mut dyn System, state: &State) {
+        self.clock.restart(state);
+    }
 }
 
 /// The symmetric part of a slope without its positive eigenvalues.

@@ -185,6 +185,11 @@ impl Stepper for GeneralizedAlpha {
     fn dt(&self) -> f64 {
         self.clock.dt
     }
+
+    fn resume(&mut self, _system: &mut dyn System, state: &State) {
+        self.clock.restart(state);
+        self.ready = false;
+    }
 }
 
 /// Newmark's method with β = ¼: the mean of the accelerations, the trapezoidal rule.
@@ -256,6 +261,10 @@ impl Stepper for Newmark {
 
     fn dt(&self) -> f64 {
         self.clock.dt
+    }
+
+    fn resume(&mut self, _system: &mut dyn System, state: &State) {
+        self.clock.restart(state);
     }
 }
 

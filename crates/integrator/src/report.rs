@@ -122,6 +122,12 @@ impl Stepper for Report {
     fn dt(&self) -> f64 {
         self.dt
     }
+
+    fn resume(&mut self, _system: &mut dyn System, state: &State) {
+        self.first = true;
+        self.start = Start::SecondOrder;
+        self.backward.copy_from_slice(&state.v);
+    }
 }
 
 /// How often the report's loop `while t < end, …, t = t + dt` goes round.

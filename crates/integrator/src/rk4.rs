@@ -177,4 +177,8 @@ impl Stepper for Rk4 {
     fn dt(&self) -> f64 {
         self.clock.dt
     }
+
+    fn resume(&mut self, _system: &mut dyn System, state: &State) {
+        self.clock.restart(state);
+    }
 }

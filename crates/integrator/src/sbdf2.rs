@@ -24,7 +24,11 @@ use crate::{Fault, SchemeError, State, Stepper, System};
 pub(crate) struct Sbdf2 {
     clock: Clock,
     solver: Solver,
-    starter: Option<Solver>,
+    /// Euler's matrix, for the first step.
+    starter: Solver,
+    starts: bool,
+    /// Whether a schedule has left it behind.
+    stale: bool,
     /// x − x₋, v₋ and f₋.
     last_x: Vec<DVec2>,
     last_v: Vec<DVec2>,
@@ -53,7 +57,9 @@ impl Sbdf2 {
         Ok(Self {
             clock: Clock::new(state, dt),
             solver: solver(2.25, 1.5)?,
-            starter: Some(solver(1.0, 1.0)?),
+            starter: solver(1.0, 1.0)?,
+            starts: true,
+            stale: false,
             last_x: zeros(),
             last_v: zeros(),
             last_f: zeros(),
@@ -69,7 +75,7 @@ impl Sbdf2 {
     fn gather(&mut self, system: &dyn System, state: &State) {
         let dt = self.clock.dt;
         let (mass, damping, held) = (system.mass(), system.damping(), system.held());
-        let starts = self.starter.is_some();
+        let starts = self.starts;
         for i in 0..state.len() {
             if held[i] {
                 self.force[i] = DVec2::ZERO;
@@ -90,18 +96,21 @@ impl Sbdf2 {
 impl Stepper for Sbdf2 {
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let (dt, t) = (self.clock.dt, self.clock.now());
-        // the first step starts where both matrices were made
-        if self.starter.is_none() {
-            self.solver.advance(system, t, &state.x)?;
+        self.stale |= self.solver.advance(system, t, &state.x)?;
+        if self.starts && self.stale {
+            self.starter.rebuild(system, &state.x)?;
+            self.stale = false;
         }
         system.elastic(&state.x, &mut self.force);
         stepper::external(system, t, &state.x, &state.v, &mut self.external)?;
         self.gather(system, state);
-        match &self.starter {
-            Some(starter) => starter.solve(&mut self.force),
-            None => self.solver.solve(&mut self.force),
-        }
-        let starts = self.starter.is_some();
+        let starts = self.starts;
+        let solver = if starts {
+            &mut self.starter
+        } else {
+            &mut self.solver
+        };
+        solver.solve(&mut self.force);
         for i in 0..state.len() {
             let step = self.force[i];
             self.next_x[i] = state.x[i] + step;
@@ -118,7 +127,6 @@ impl Stepper for Sbdf2 {
             pace: Pace::Together,
         };
         let (x, v) = (&mut self.next_x, &mut self.next_v);
-        let solver = self.starter.as_mut().unwrap_or(&mut self.solver);
         let touched = self
             .contacts
             .meet_with(system, moment, &state.x, x, v, Some(solver))?;
@@ -136,12 +144,24 @@ impl Stepper for Sbdf2 {
         std::mem::swap(&mut self.last_f, &mut self.external);
         std::mem::swap(&mut state.x, x);
         std::mem::swap(&mut state.v, v);
-        self.starter = None;
+        self.starts = false;
         self.clock.tick(state);
         Ok(())
     }
 
     fn dt(&self) -> f64 {
         self.clock.dt
+    }
+
+    fn resume(&mut self, _system: &mut dyn System, state: &State) {
+        if (self.clock.now() - state.t).abs() > 1e-9 * self.clock.dt {
+            self.starts = true;
+        } else {
+            // x₋ is where the last step began
+            for i in 0..state.len() {
+                self.last_x[i] = state.x[i] - self.next_x[i];
+            }
+        }
+        self.clock.restart(state);
     }
 }

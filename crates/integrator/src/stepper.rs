@@ -19,6 +19,12 @@ pub trait Stepper: std::fmt::Debug {
 
     /// The step.
     fn dt(&self) -> f64;
+
+    /// Go on from another state, at any time, as if started there with [`Start::SecondOrder`].
+    ///
+    /// What depends on the step alone is kept, factors above all. A scheme of two steps also keeps its past where
+    /// `state` is at the time its last step ended at, and so nearly where that ended.
+    fn resume(&mut self, system: &mut dyn System, state: &State);
 }
 
 /// What is known at the start: how a scheme with history invents the step before the first (D19).
@@ -46,6 +52,11 @@ impl Clock {
             start: state.t,
             count: 0,
         }
+    }
+
+    /// Count from this state on.
+    pub(crate) fn restart(&mut self, state: &State) {
+        *self = Self::new(state, self.dt);
     }
 
     /// Time at the beginning of the step to come.

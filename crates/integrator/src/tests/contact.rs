@@ -7,7 +7,7 @@ use crate::problems::{self, Springs};
 use crate::{Fault, Scheme, Start, State, System, Touch, kinetic_energy};
 
 /// Springs above a floor at y = 0 (y down), which sends back `restitution` of the speed.
-struct Floor {
+pub(super) struct Floor {
     springs: Springs,
     restitution: f64,
 }
@@ -96,7 +96,7 @@ fn inert() -> impl Iterator<Item = Scheme> {
 }
 
 /// Three single nodes dropped from a height of 1, moving sideways at 0.5.
-fn drops(restitution: f64) -> (Floor, State) {
+pub(super) fn drops(restitution: f64) -> (Floor, State) {
     let mut springs = problems::damped_spring(1.0, 0.0, 0.0).unwrap().system;
     springs.gravity = DVec2::new(0.0, 10.0);
     let mut state = State::at_rest(vec![DVec2::new(0.0, -1.0); 3]);

@@ -1,5 +1,6 @@
 //! Every scheme against exact motions: orders, borders of stability, energies, refusals.
 
+mod adaptive;
 mod constant;
 mod contact;
 mod edge;

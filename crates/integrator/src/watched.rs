@@ -1,0 +1,105 @@
+//! One system, moved by several steppers in turn.
+
+use banded::Operator;
+use glam::{DMat2, DVec2};
+
+use crate::{Fault, System, Touch};
+
+/// Which version of a system's parameters there is, and whether something was touched.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Watch {
+    pub(crate) version: u64,
+    pub(crate) touched: bool,
+    /// How far a node may be off because a contact was met at the end of a step and not before.
+    pub(crate) late: f64,
+}
+
+/// A system as one of several steppers sees it: told of every change that another one asked for.
+pub(crate) struct Watched<'a> {
+    pub(crate) inner: &'a mut dyn System,
+    pub(crate) watch: &'a mut Watch,
+    /// The version this stepper has seen.
+    pub(crate) seen: &'a mut u64,
+}
+
+impl System for Watched<'_> {
+    fn len(&self) -> usize {
+        self.inner.len()
+    }
+
+    fn mass(&self) -> &[f64] {
+        self.inner.mass()
+    }
+
+    fn damping(&self) -> &[f64] {
+        self.inner.damping()
+    }
+
+    fn held(&self) -> &[bool] {
+        self.inner.held()
+    }
+
+    fn stiffness(&self) -> &Operator {
+        self.inner.stiffness()
+    }
+
+    fn advance(&mut self, t: f64) -> bool {
+        if self.inner.advance(t) {
+            self.watch.version += 1;
+        }
+        let changed = *self.seen != self.watch.version;
+        *self.seen = self.watch.version;
+        changed
+    }
+
+    fn elastic(&mut self, x: &[DVec2], force: &mut [DVec2]) {
+        self.inner.elastic(x, force);
+    }
+
+    fn external(
+        &mut self,
+        t: f64,
+        x: &[DVec2],
+        v: &[DVec2],
+        force: &mut [DVec2],
+    ) -> Result<(), Fault> {
+        self.inner.external(t, x, v, force)
+    }
+
+    fn external_is_constant(&self) -> bool {
+        self.inner.external_is_constant()
+    }
+
+    fn contacts(
+        &mut self,
+        dt: f64,
+        before: &[DVec2],
+        x: &[DVec2],
+        v: &[DVec2],
+        touches: &mut Vec<Touch>,
+    ) {
+        self.inner.contacts(dt, before, x, v, touches);
+        self.watch.touched |= !touches.is_empty();
+        for touch in &*touches {
+            let (Some(velocity), Some(&x), Some(&v)) =
+                (touch.velocity, x.get(touch.node), v.get(touch.node))
+            else {
+                continue;
+            };
+            // out again, and slower along it
+            let away = (touch.position - x).normalize_or_zero();
+            let change = velocity - v;
+            let along = change - away * change.dot(away);
+            let fast = velocity.dot(away).max(0.0).hypot(along.length());
+            self.watch.late = self.watch.late.max(dt * fast);
+        }
+    }
+
+    fn contact_stiffness(&self) -> (f64, f64) {
+        self.inner.contact_stiffness()
+    }
+
+    fn external_slope(&mut self, t: f64, x: &[DVec2], slope: &mut [DMat2]) -> bool {
+        self.inner.external_slope(t, x, slope)
+    }
+}
