@@ -18,7 +18,7 @@ const BELOW: f64 = 0.95;
 ///
 /// The output step is cut into equal pairs, as few as the stability limit of the long sub-step allows, and a pair is halved
 /// where its error asks for it, and doubled again where it no longer does (a proportional and integral
-/// rule, [gustafsson91]). Lengths are therefore few, and each keeps its factor. The two short sub-steps stand;
+/// rule, `[gustafsson91]`). Lengths are therefore few, and each keeps its factor. The two short sub-steps stand;
 /// the long one only judges them. A refused pair leaves no trace. At a change of length schemes of two steps
 /// start again with [`Start::SecondOrder`].
 ///
