@@ -13,7 +13,7 @@
 //! Differences first, then weights: a curve that is only shifted feels exactly nothing from tension
 //! and rigidity, whatever the rounding.
 //!
-//! One spacing serves the whole curve; edges of their own lengths it cannot do yet.
+//! One spacing serves the whole curve; edges of their own lengths are [`Spacings`](crate::Spacings).
 
 use crate::profile::Lane;
 use crate::{End, Material, Profile, Topology};

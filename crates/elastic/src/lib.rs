@@ -42,7 +42,11 @@
 //! **Doors.** Functions that return `Result` check everything; what they have let through ([`Material::validate`],
 //! [`validate_nodes`]) the others trust. Nothing here knows of images or of time.
 //!
-//! Not here yet: a body frame that turns, orders above two, a spacing that differs from edge to edge.
+//! Beyond the report's program: weights of any order ([`Kernel`]), edges of their own lengths ([`Spacings`]), how far a
+//! curve has turned and what its motion is made of ([`BestFit`], [`Motion`]), what a node may do ([`Hold`]), and damping
+//! from stiffness ([`critical_damping`], [`InternalDamping`]).
+//!
+//! Not here yet: clamped ends of orders above two, edges of their own lengths for those orders.
 
 #![cfg_attr(
     test,
