@@ -3,7 +3,7 @@
 use crate::error::{FieldError, OutsideField};
 use crate::fast::TileSource;
 use crate::grid::Grid;
-use crate::sample::{self, Interpolation};
+use crate::sample::{self, Flat, Interpolation};
 use glam::{DMat2, DVec2};
 use ndarray::{Array2, Zip};
 use std::sync::Arc;
@@ -161,13 +161,9 @@ impl ForceField {
         let dim = self.dim();
         // asked once a point, not at every pixel, where the forces are
         match &self.forces {
-            Forces::Double(f) => sample::value(|row, column| f[[row, column]], dim, p, rule),
-            Forces::Single(f) => {
-                sample::value(|row, column| widened(f[[row, column]]), dim, p, rule)
-            }
-            Forces::Tiles { .. } => {
-                sample::value(|row, column| self.force(row, column), dim, p, rule)
-            }
+            Forces::Double(f) => sample::value(|y, x| f[[y, x]].to_array(), dim, p, rule),
+            Forces::Single(f) => sample::value(|y, x| widened(f[[y, x]]).to_array(), dim, p, rule),
+            Forces::Tiles { .. } => sample::value(|y, x| self.force(y, x).to_array(), dim, p, rule),
         }
     }
 
@@ -177,22 +173,48 @@ impl ForceField {
     /// Beyond the outermost pixel centers the force does not change, and the slope across is 0.
     #[must_use]
     pub fn sample_with_slope(&self, p: DVec2, rule: Interpolation) -> (DVec2, DMat2) {
-        sample::value_and_slope(|row, column| self.force(row, column), self.dim(), p, rule)
+        let dim = self.dim();
+        match &self.forces {
+            Forces::Double(f) => sample::value_and_slope(|y, x| f[[y, x]].to_array(), dim, p, rule),
+            Forces::Single(f) => {
+                sample::value_and_slope(|y, x| widened(f[[y, x]]).to_array(), dim, p, rule)
+            }
+            Forces::Tiles { .. } => {
+                sample::value_and_slope(|y, x| self.force(y, x).to_array(), dim, p, rule)
+            }
+        }
     }
 
     /// [`ForceField::sample`] at many points: the shorter of the two slices says how many.
+    ///
+    /// The same digits as point by point, several times faster from some tens of points on.
     pub fn sample_into(&self, points: &[DVec2], rule: Interpolation, forces: &mut [DVec2]) {
-        let (dim, pairs) = (self.dim(), points.iter().zip(forces));
-        if let Forces::Double(grid) = &self.forces
-            && let Some(flat) = grid.as_slice()
-            && rule == Interpolation::Bilinear
-            && dim.0 > 1
-            && dim.1 > 1
-        {
-            // where the forces are is asked once, and two looks a point are enough
-            pairs.for_each(|(&p, force)| *force = sample::bilinear_flat(flat, dim, p));
-        } else {
-            pairs.for_each(|(&p, force)| *force = self.sample(p, rule));
+        match &self.forces {
+            Forces::Double(f) => {
+                if let Some(field) = Flat::new(f) {
+                    sample::sample_flat(field, points, rule, forces);
+                }
+            }
+            Forces::Single(f) => {
+                if let Some(field) = Flat::new(f) {
+                    sample::sample_flat(field, points, rule, forces);
+                }
+            }
+            Forces::Tiles { tiles, factor } => {
+                let (height, width) = tiles.dim();
+                if rule == Interpolation::Bilinear && height > 1 && width > 1 {
+                    sample::sample_cells(
+                        |row, column| tiles.cell(row, column).map(|f| widened(f) * *factor),
+                        (height, width),
+                        points,
+                        forces,
+                    );
+                } else {
+                    for (&p, force) in points.iter().zip(forces) {
+                        *force = self.sample(p, rule);
+                    }
+                }
+            }
         }
     }
 
@@ -204,8 +226,22 @@ impl ForceField {
         forces: &mut [DVec2],
         slopes: &mut [DMat2],
     ) {
-        for ((&p, force), slope) in points.iter().zip(forces).zip(slopes) {
-            (*force, *slope) = self.sample_with_slope(p, rule);
+        match &self.forces {
+            Forces::Double(f) => {
+                if let Some(field) = Flat::new(f) {
+                    sample::sample_flat_with_slope(field, points, rule, forces, slopes);
+                }
+            }
+            Forces::Single(f) => {
+                if let Some(field) = Flat::new(f) {
+                    sample::sample_flat_with_slope(field, points, rule, forces, slopes);
+                }
+            }
+            Forces::Tiles { .. } => {
+                for ((&p, force), slope) in points.iter().zip(forces).zip(slopes) {
+                    (*force, *slope) = self.sample_with_slope(p, rule);
+                }
+            }
         }
     }
 

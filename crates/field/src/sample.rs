@@ -4,7 +4,13 @@
 //! for the slope; the weights of the two axes multiply. A coordinate beyond the outermost pixel centers is moved
 //! there, and has slope 0.
 
+mod group;
+mod many;
+mod weights;
+
 use glam::{DMat2, DVec2};
+pub(crate) use many::{Flat, sample_flat, sample_flat_with_slope};
+use weights::{Axis, Four, Run, Two, bicubic, bicubic_slope, bilinear, bilinear_slope};
 
 /// How a field is continued between pixel centers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,165 +24,94 @@ pub enum Interpolation {
     Bicubic,
 }
 
-/// Four pixels of a line with their weights; unused ones have weight 0.
-#[derive(Debug, Clone, Copy)]
-struct Stencil {
-    index: [usize; 4],
-    value: [f64; 4],
-    slope: [f64; 4],
-}
+/// A force as its two components in `f64`.
+pub(crate) type Pair = [f64; 2];
 
-/// The cell of a coordinate clamped to `0 … n−1`, the place in it, and whether it had to be moved.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "clamped to 0 … n−1 before"
-)]
+/// The first pixel of a coordinate's cell on a line of `n`, the place in it, and whether it had to be moved there.
+///
+/// NaN is cell 0 with a place that is NaN.
 #[inline]
 pub(crate) fn cell(x: f64, n: usize) -> (usize, f64, bool) {
-    let last = n - 1;
-    let inside = x.clamp(0.0, last as f64);
-    // NaN stays NaN and is cell 0: the weight carries it into the force
-    let first = (inside as usize).min(last.saturating_sub(1));
-    (first, inside - first as f64, x < 0.0 || x > last as f64)
-}
-
-impl Stencil {
-    #[inline]
-    fn new(x: f64, n: usize, rule: Interpolation) -> Self {
-        let (first, t, moved) = cell(x, n);
-        if n == 1 {
-            // a NaN coordinate still gives a NaN force
-            return Self {
-                index: [0; 4],
-                value: [1.0 + 0.0 * t, 0.0, 0.0, 0.0],
-                slope: [0.0; 4],
-            };
-        }
-        let slide = if moved { 0.0 } else { 1.0 };
-        let (value, slope) = match rule {
-            Interpolation::Bilinear => ([0.0, 1.0 - t, t, 0.0], [0.0, -slide, slide, 0.0]),
-            Interpolation::Bicubic => {
-                let s = 1.0 - t;
-                (
-                    [
-                        -0.5 * t * s * s,
-                        1.0 + t * t * (1.5 * t - 2.5),
-                        1.0 + s * s * (1.5 * s - 2.5),
-                        -0.5 * s * t * t,
-                    ],
-                    [
-                        slide * (s * t - 0.5 * s * s),
-                        slide * t * (4.5 * t - 5.0),
-                        slide * -s * (4.5 * s - 5.0),
-                        slide * (0.5 * t * t - s * t),
-                    ],
-                )
-            }
-        };
-        let index = [
-            first.saturating_sub(1),
-            first,
-            first + 1,
-            (first + 2).min(n - 1),
-        ];
-        let mut stencil = Self {
-            index,
-            value,
-            slope,
-        };
-        // beyond the border the line goes on straight: f[−1] = 2 f[0] − f[1]
-        if first == 0 {
-            stencil.fold(0, 1, 2);
-        }
-        if first + 2 > n - 1 {
-            stencil.fold(3, 2, 1);
-        }
-        stencil
-    }
-
-    /// Gives the weight of a missing pixel to the two nearest ones.
-    #[inline]
-    fn fold(&mut self, missing: usize, near: usize, next: usize) {
-        for weights in [&mut self.value, &mut self.slope] {
-            let w = std::mem::replace(&mut weights[missing], 0.0);
-            weights[near] += 2.0 * w;
-            weights[next] -= w;
-        }
-    }
-}
-
-/// [`value`] by the bilinear rule for rows that stand one after another, two pixels or more each way.
-///
-/// The same operations in the same order, so the same digits.
-#[inline]
-pub(crate) fn bilinear_flat(forces: &[DVec2], (height, width): (usize, usize), p: DVec2) -> DVec2 {
-    let ((x, tx, _), (y, ty, _)) = (cell(p.x, width), cell(p.y, height));
-    let here = y * width + x;
-    let above = &forces[here..here + 2];
-    let below = &forces[here + width..here + width + 2];
-    let above = above[0] * (1.0 - tx) + above[1] * tx;
-    let below = below[0] * (1.0 - tx) + below[1] * tx;
-    above * (1.0 - ty) + below * ty
+    let axis = Axis::new(x, n);
+    (axis.index[0], axis.t, axis.slide < 0.5)
 }
 
 /// The force at a point of a field of `(rows, columns)` forces.
 #[inline]
 pub(crate) fn value(
-    force: impl Fn(usize, usize) -> DVec2,
+    force: impl Fn(usize, usize) -> Pair,
     (height, width): (usize, usize),
     p: DVec2,
     rule: Interpolation,
 ) -> DVec2 {
-    if rule == Interpolation::Bilinear {
-        let ((x, tx, _), (y, ty, _)) = (cell(p.x, width), cell(p.y, height));
-        let (right, down) = ((x + 1).min(width - 1), (y + 1).min(height - 1));
-        let above = force(y, x) * (1.0 - tx) + force(y, right) * tx;
-        let below = force(down, x) * (1.0 - tx) + force(down, right) * tx;
-        return above * (1.0 - ty) + below * ty;
-    }
-    let (x, y) = (
-        Stencil::new(p.x, width, rule),
-        Stencil::new(p.y, height, rule),
-    );
-    let row = |j: usize| {
-        (0..4)
-            .map(|i| force(y.index[j], x.index[i]) * x.value[i])
-            .sum::<DVec2>()
+    let (x, y) = (Axis::new(p.x, width), Axis::new(p.y, height));
+    let value = match rule {
+        Interpolation::Bilinear => bilinear(corners(force, x, y), x.t, y.t),
+        Interpolation::Bicubic => {
+            let (x, y) = (Four::new(x, width), Four::new(y, height));
+            bicubic(
+                pulp::Scalar,
+                sixteen(force, x.index, y.index),
+                [x.value, y.value],
+            )
+        }
     };
-    (0..4).map(|j| row(j) * y.value[j]).sum()
+    DVec2::from_array(value)
+}
+
+/// [`value`] by the bilinear rule at many points, from whole cells of a field of two pixels or more each way.
+pub(crate) fn sample_cells(
+    cell: impl Fn(usize, usize) -> [DVec2; 4],
+    (height, width): (usize, usize),
+    points: &[DVec2],
+    forces: &mut [DVec2],
+) {
+    for (p, force) in points.iter().zip(forces) {
+        let (x, y) = (Axis::new(p.x, width), Axis::new(p.y, height));
+        let [a, b, c, d] = cell(y.index[0], x.index[0]);
+        let rows = [[a.x, a.y, b.x, b.y], [c.x, c.y, d.x, d.y]];
+        *force = DVec2::from_array(bilinear(rows, x.t, y.t));
+    }
 }
 
 /// The force at a point and its slope: the columns are ∂F/∂x and ∂F/∂y.
 #[inline]
 pub(crate) fn value_and_slope(
-    force: impl Fn(usize, usize) -> DVec2,
+    force: impl Fn(usize, usize) -> Pair,
     (height, width): (usize, usize),
     p: DVec2,
     rule: Interpolation,
 ) -> (DVec2, DMat2) {
-    let (x, y) = (
-        Stencil::new(p.x, width, rule),
-        Stencil::new(p.y, height, rule),
-    );
-    let used = if rule == Interpolation::Bilinear && width > 1 && height > 1 {
-        1..3
-    } else {
-        0..4
-    };
-    let (mut value, mut slope) = (DVec2::ZERO, DMat2::ZERO);
-    for j in used.clone() {
-        let (mut row, mut row_slope) = (DVec2::ZERO, DVec2::ZERO);
-        for i in used.clone() {
-            let force = force(y.index[j], x.index[i]);
-            row += force * x.value[i];
-            row_slope += force * x.slope[i];
+    let (x, y) = (Axis::new(p.x, width), Axis::new(p.y, height));
+    let (value, slope) = match rule {
+        Interpolation::Bilinear => {
+            bilinear_slope(corners(force, x, y), [x.t, y.t], [x.slide, y.slide])
         }
-        value += row * y.value[j];
-        slope.x_axis += row_slope * y.value[j];
-        slope.y_axis += row * y.slope[j];
-    }
-    (value, slope)
+        Interpolation::Bicubic => {
+            let (x, y) = (Four::new(x, width), Four::new(y, height));
+            let forces = sixteen(force, x.index, y.index);
+            bicubic_slope(pulp::Scalar, forces, [x.value, y.value], [x.slope, y.slope])
+        }
+    };
+    (DVec2::from_array(value), DMat2::from_cols_array(&slope))
+}
+
+/// The four forces around a point, row by row.
+#[inline(always)]
+fn corners(force: impl Fn(usize, usize) -> Pair, x: Axis, y: Axis) -> [Two; 2] {
+    y.index.map(|row| {
+        let [left, right] = x.index.map(|column| force(row, column));
+        [left[0], left[1], right[0], right[1]]
+    })
+}
+
+/// The sixteen forces around a point, row by row.
+#[inline(always)]
+fn sixteen(force: impl Fn(usize, usize) -> Pair, x: [usize; 4], y: [usize; 4]) -> [Run; 4] {
+    y.map(|row| {
+        let [a, b, c, d] = x.map(|column| force(row, column));
+        [a[0], a[1], b[0], b[1], c[0], c[1], d[0], d[1]]
+    })
 }
 
 #[cfg(test)]

@@ -7,12 +7,17 @@ use ndarray::Array2;
 use std::fmt;
 use std::sync::OnceLock;
 
+/// Columns kept of a tile: one more than it answers for, as there is one more row, so that no cell lies across two.
+const STRIDE: usize = SMALL_TILE.0 + 1;
+
 /// Forces that come a tile at a time, whatever the pixels were.
 pub(crate) trait TileSource: Send + Sync + fmt::Debug {
     /// (rows, columns).
     fn dim(&self) -> (usize, usize);
     /// The force at a pixel center inside.
     fn force(&self, row: usize, column: usize) -> [f32; 2];
+    /// The forces of the cell that begins at a pixel center: two of its row, two of the next.
+    fn cell(&self, row: usize, column: usize) -> [[f32; 2]; 4];
     /// How many tiles have been computed so far.
     fn computed(&self) -> usize;
 }
@@ -39,6 +44,14 @@ impl<P: Pixel> Tiles<P> {
         }
     }
 
+    /// The tile that holds a pixel, and where in it.
+    #[inline]
+    fn tile(&self, row: usize, column: usize) -> (&[[f32; 2]], usize) {
+        let tile = row / SMALL_TILE.1 * self.tiles_across + column / SMALL_TILE.0;
+        let forces = self.tiles[tile].get_or_init(|| self.compute(tile));
+        (forces, row % SMALL_TILE.1 * STRIDE + column % SMALL_TILE.0)
+    }
+
     fn compute(&self, tile: usize) -> Box<[[f32; 2]]> {
         let (height, width) = self.image.dim();
         let x = tile % self.tiles_across * SMALL_TILE.0;
@@ -46,17 +59,17 @@ impl<P: Pixel> Tiles<P> {
         let place = Place {
             x,
             y,
-            width: SMALL_TILE.0.min(width - x),
-            height: SMALL_TILE.1.min(height - y),
+            width: STRIDE.min(width - x),
+            height: (SMALL_TILE.1 + 1).min(height - y),
         };
-        let mut out = vec![[0.0; 2]; SMALL_TILE.0 * place.height];
+        let mut out = vec![[0.0; 2]; STRIDE * place.height];
         let bad = pulp::Arch::new().dispatch(Job {
             plan: &self.plan,
             image: self.image.view(),
             place,
             scratch: &mut Scratch::default(),
             out: &mut out,
-            out_stride: SMALL_TILE.0,
+            out_stride: STRIDE,
         });
         if bad {
             out.fill([f32::NAN; 2]);
@@ -72,9 +85,15 @@ impl<P: Pixel> TileSource for Tiles<P> {
 
     #[inline]
     fn force(&self, row: usize, column: usize) -> [f32; 2] {
-        let tile = row / SMALL_TILE.1 * self.tiles_across + column / SMALL_TILE.0;
-        let forces = self.tiles[tile].get_or_init(|| self.compute(tile));
-        forces[row % SMALL_TILE.1 * SMALL_TILE.0 + column % SMALL_TILE.0]
+        let (tile, at) = self.tile(row, column);
+        tile[at]
+    }
+
+    #[inline]
+    fn cell(&self, row: usize, column: usize) -> [[f32; 2]; 4] {
+        let (tile, at) = self.tile(row, column);
+        let (above, below) = (&tile[at..at + 2], &tile[at + STRIDE..at + STRIDE + 2]);
+        [above[0], above[1], below[0], below[1]]
     }
 
     fn computed(&self) -> usize {

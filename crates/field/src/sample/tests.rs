@@ -100,6 +100,131 @@ fn many_points_are_the_points_one_by_one() {
     );
 }
 
+/// Places of every kind: inside, on pixels, on and beyond every border, and nowhere.
+fn places(height: usize, width: usize) -> Vec<DVec2> {
+    let axis = |n: usize| {
+        let last = n as f64 - 1.0;
+        let special = [
+            -1e300,
+            -2.5,
+            -0.0,
+            0.0,
+            1e-300,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            f64::NAN,
+        ];
+        let border = [last - 1.0, last - 0.25, last, last + 1e-12, last + 7.0];
+        let inside = (0..9).map(move |i| last * f64::from(i) * 0.1237);
+        special.into_iter().chain(border).chain(inside)
+    };
+    let all = axis(height).flat_map(|y| axis(width).map(move |x| DVec2::new(x, y)));
+    all.collect()
+}
+
+fn bits(f: DVec2) -> [u64; 2] {
+    // one NaN is as good as another
+    f.to_array()
+        .map(|v| if v.is_nan() { u64::MAX } else { v.to_bits() })
+}
+
+#[test]
+fn many_points_have_the_digits_of_one_by_one_wherever_they_lie() {
+    for (height, width) in [
+        (1, 1),
+        (1, 9),
+        (9, 1),
+        (2, 2),
+        (3, 3),
+        (4, 4),
+        (2, 7),
+        (12, 31),
+    ] {
+        let double = wavy(height, width);
+        let picture =
+            ndarray::Array2::from_shape_fn((height, width), |(y, x)| (x * x + 3 * y) as f32);
+        let recipe = crate::Recipe::Edge(crate::EdgeForce::as_strong_as_the_report());
+        let single = crate::fast_force(picture.view(), &recipe, 1).unwrap();
+        let lazy = crate::lazy_force(picture, &recipe).unwrap().scaled(0.3);
+        let points = places(height, width);
+        let n = points.len();
+        let (mut values, mut slopes) = (vec![DVec2::ONE; n], vec![DMat2::ZERO; n]);
+        for field in [&double, &single, &lazy] {
+            for rule in RULES {
+                field.sample_into(&points, rule, &mut values);
+                for (&p, &value) in points.iter().zip(&values) {
+                    assert_eq!(bits(value), bits(field.sample(p, rule)), "{rule:?} at {p}");
+                    assert_eq!(value.is_nan(), p.is_nan(), "{rule:?} at {p}");
+                }
+                field.sample_with_slope_into(&points, rule, &mut values, &mut slopes);
+                for (k, &p) in points.iter().enumerate() {
+                    let (value, slope) = field.sample_with_slope(p, rule);
+                    assert_eq!(bits(values[k]), bits(value), "{rule:?} at {p}");
+                    assert_eq!(
+                        bits(values[k]),
+                        bits(field.sample(p, rule)),
+                        "{rule:?} at {p}"
+                    );
+                    assert_eq!(
+                        bits(slopes[k].x_axis),
+                        bits(slope.x_axis),
+                        "{rule:?} at {p}"
+                    );
+                    assert_eq!(
+                        bits(slopes[k].y_axis),
+                        bits(slope.y_axis),
+                        "{rule:?} at {p}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_shortest_slice_says_how_many() {
+    let field = wavy(5, 6);
+    let points = vec![DVec2::splat(2.3); 200];
+    for rule in RULES {
+        let (mut values, mut slopes) = (vec![DVec2::ZERO; 130], vec![DMat2::ZERO; 70]);
+        field.sample_into(&points[..100], rule, &mut values);
+        assert!(values[99] != DVec2::ZERO && values[100] == DVec2::ZERO);
+        values.fill(DVec2::ZERO);
+        field.sample_with_slope_into(&points, rule, &mut values, &mut slopes);
+        assert!(
+            values[69] != DVec2::ZERO && values[70] == DVec2::ZERO && slopes[69] != DMat2::ZERO
+        );
+    }
+}
+
+/// The bilinear formula as it is written down, without a trick.
+#[test]
+fn bilinear_values_are_the_formula_to_the_last_bit() {
+    let field = wavy(8, 11);
+    let points: Vec<DVec2> = (0..500_u32)
+        .map(|i| {
+            DVec2::new(
+                f64::from(i * 37 % 499) * 0.02,
+                f64::from(i * 61 % 497) * 0.014,
+            )
+        })
+        .collect();
+    let mut values = vec![DVec2::ZERO; 500];
+    field.sample_into(&points, Interpolation::Bilinear, &mut values);
+    for (p, value) in points.iter().zip(values) {
+        let (x, y) = (
+            (0..10_usize).rfind(|&x| x as f64 <= p.x),
+            (0..7_usize).rfind(|&y| y as f64 <= p.y),
+        );
+        let (x, y) = (x.unwrap(), y.unwrap());
+        let (tx, ty) = (p.x - x as f64, p.y - y as f64);
+        let f = |row, column| field.pixel(column, row).unwrap();
+        let above = f(y, x) * (1.0 - tx) + f(y, x + 1) * tx;
+        let below = f(y + 1, x) * (1.0 - tx) + f(y + 1, x + 1) * tx;
+        assert_eq!(value, above * (1.0 - ty) + below * ty, "at {p}");
+    }
+}
+
 proptest! {
     #[test]
     fn slopes_are_the_derivatives_of_the_values(
