@@ -39,9 +39,13 @@ impl Energies {
     /// What each of [`Energies::values`] is called in that world.
     #[must_use]
     pub fn names(world: &World) -> Vec<String> {
+        Self::names_with(world.names())
+    }
+
+    /// The same with these names for the forces.
+    pub fn names_with<'a>(forces: impl Iterator<Item = &'a str>) -> Vec<String> {
         let first = ["kinetic", "tether", "tension", "rigidity"];
         let last = ["wall", "damping", "contact", "parameters"];
-        let forces = world.names();
         first
             .into_iter()
             .chain(forces)
@@ -186,6 +190,33 @@ impl Ledger {
         }
         self.before.clone_from(state);
         Ok(())
+    }
+
+    /// Go on from another state, as after a kick from outside or on other nodes: what is booked stays.
+    ///
+    /// # Errors
+    ///
+    /// As [`Ledger::begin`].
+    pub fn resume(&mut self, snake: &mut Snake, state: &State) -> Result<(), Fault> {
+        let n = state.len();
+        snake.keep_account();
+        self.before.clone_from(state);
+        self.middle.clone_from(state);
+        self.force.resize(n, DVec2::ZERO);
+        for booking in &mut self.bookings {
+            booking.force.clear();
+            booking.force.resize(n, DVec2::ZERO);
+            snake.force_of(booking.index, state, &mut booking.force)?;
+            booking.power = power(&booking.force, &state.v);
+        }
+        Ok(())
+    }
+
+    /// All that is booked as lost, and minus all work.
+    #[must_use]
+    pub(crate) fn booked(&self) -> (f64, f64) {
+        let work: f64 = self.bookings.iter().map(|booking| booking.work).sum();
+        (self.damping + self.contact + self.parameters, 0.0 - work)
     }
 
     /// The cubic through both states, halfway.

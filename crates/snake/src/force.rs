@@ -92,6 +92,12 @@ pub trait Force: fmt::Debug + Send + Sync {
         Ok(())
     }
 
+    /// The curve has other nodes, made of the old ones as `plan` says: for forces that know nodes by
+    /// their numbers.
+    fn carry(&mut self, plan: &outline::Plan) {
+        let _ = plan;
+    }
+
     /// The same force once more.
     fn boxed(&self) -> Box<dyn Force>;
 
@@ -155,6 +161,16 @@ impl Acting {
     pub fn scheduled(mut self, schedule: Schedule) -> Self {
         self.schedule = Some(schedule);
         self
+    }
+
+    /// Follow a curve to other nodes.
+    pub(crate) fn carry(&mut self, plan: &outline::Plan) {
+        if let Profile::PerNode(values) = &mut self.weight
+            && let Ok(poured) = plan.pour(values)
+        {
+            *values = poured;
+        }
+        self.force.carry(plan);
     }
 
     /// What it is called.

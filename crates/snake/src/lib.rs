@@ -38,6 +38,7 @@
 mod account;
 mod body;
 mod certificate;
+mod crowd;
 mod energy;
 mod error;
 mod force;
@@ -51,6 +52,7 @@ mod world;
 
 pub use body::{Body, Center, Frame};
 pub use certificate::{Certificate, ModeOfMotion};
+pub use crowd::{Contact, Crowd, CrowdError, Event, EventKind, Member, Plastic, Timing, Upkeep};
 pub use energy::{Energies, Ledger};
 pub use error::SnakeError;
 pub use force::{Acting, Curve, Force, Gravity, ImageForce, Pull, Sampling};

@@ -6,7 +6,8 @@
 //!
 //! - *balance*: the net force on every node is a small share of the forces that cancel there;
 //! - *travel*: since the run was five sixths as old as it is now, no node has gone farther than a small
-//!   share of the curve's size, and at its speed none would in as long again;
+//!   share of the curve's size, and at its speed of late none would in as long again. The speed is that over the
+//!   last eighth of that time, since a node on a wall trembles by gravity times the step;
 //! - *energy*: what is left of the motion is a small share of the most there was.
 
 use glam::DVec2;
@@ -41,6 +42,9 @@ const CALM: f64 = 1e-6;
 /// The last share of the run in which travel is measured.
 const LAST: f64 = 1.0 / 6.0;
 
+/// The last share of a window, in which speed is measured.
+const LATE: f64 = 0.125;
+
 /// Windows in which it must have been as far and come back to be called a cycle. The run grows by a
 /// fifth from window to window, so the last is nine times as long as the first: what fades by less
 /// than a hundredth meanwhile will not fade in any time one would wait.
@@ -65,6 +69,8 @@ pub(crate) struct Watch {
     /// Where the nodes were at the beginning of the present window, and when.
     mark: Vec<DVec2>,
     since: f64,
+    /// The same for the last eighth of the window; None before.
+    late: Option<(Vec<DVec2>, f64)>,
     /// Steps taken before the first window begins to count.
     looks: u64,
     /// Most kinetic energy and largest force so far.
@@ -88,6 +94,7 @@ impl Watch {
             begin: state.t,
             mark: state.x.clone(),
             since: state.t,
+            late: None,
             looks: 0,
             liveliest: 0.0,
             strongest: 0.0,
@@ -98,12 +105,18 @@ impl Watch {
             one: vec![DVec2::ZERO; n],
         };
         watch.liveliest = kinetic(snake, state);
-        watch.forces(snake, state);
+        watch.forces(snake, state, &[]);
         watch
     }
 
-    /// Look at the state after a step. O(n), and the forces once a window.
-    pub(crate) fn look(&mut self, snake: &mut Snake, state: &State) -> Verdict {
+    /// Look at the state after a step; None until a window ends. `push` is what other snakes push with, if there are any. O(n), and
+    /// the forces once a window.
+    pub(crate) fn look(
+        &mut self,
+        snake: &mut Snake,
+        state: &State,
+        push: &[DVec2],
+    ) -> Option<Verdict> {
         self.looks += 1;
         self.liveliest = self.liveliest.max(kinetic(snake, state));
         let mut away = 0.0_f64;
@@ -118,27 +131,31 @@ impl Watch {
         }
         // a window is the last sixth of the run; a few steps at the least, or rounding decides
         let window = state.t - self.since;
-        if self.looks < 8 || window < LAST * (state.t - self.begin) {
-            return Verdict::Moving;
+        if self.late.is_none() && window >= (1.0 - LATE) * LAST * (state.t - self.begin) {
+            self.late = Some((state.x.clone(), state.t));
         }
-        let verdict = self.judge(snake, state, window);
+        if self.looks < 8 || window < LAST * (state.t - self.begin) {
+            return None;
+        }
+        let verdict = self.judge(snake, state, push, window);
         self.looks = 0;
         self.mark.copy_from_slice(&state.x);
         self.since = state.t;
+        self.late = None;
         (self.far, self.near) = (0.0, f64::INFINITY);
-        verdict
+        Some(verdict)
     }
 
     /// At the end of a window.
-    fn judge(&mut self, snake: &mut Snake, state: &State, window: f64) -> Verdict {
+    fn judge(&mut self, snake: &mut Snake, state: &State, push: &[DVec2], window: f64) -> Verdict {
         if size(&state.x) < 0.01 * self.size {
             return Verdict::Collapsed;
         }
         if lost(snake, state) {
             return Verdict::Lost;
         }
-        let net = self.forces(snake, state);
-        let speed = state.v.iter().map(|v| v.length()).fold(0.0, f64::max);
+        let net = self.forces(snake, state, push);
+        let speed = self.speed(state);
         let most = self.rest.travel * self.size;
         let slow = self.far <= most && speed * window <= most;
         let calm = kinetic(snake, state) <= CALM * self.liveliest;
@@ -164,8 +181,19 @@ impl Watch {
         }
     }
 
+    /// The largest speed of a node over the last stretch of the window.
+    fn speed(&self, state: &State) -> f64 {
+        match &self.late {
+            Some((from, t)) if state.t > *t => {
+                let ways = state.x.iter().zip(from).map(|(x, from)| x.distance(*from));
+                ways.fold(0.0, f64::max) / (state.t - t)
+            }
+            _ => state.v.iter().map(|v| v.length()).fold(0.0, f64::max),
+        }
+    }
+
     /// The largest net force on a node; the strongest single forces are remembered.
-    fn forces(&mut self, snake: &mut Snake, state: &State) -> f64 {
+    fn forces(&mut self, snake: &mut Snake, state: &State, push: &[DVec2]) -> f64 {
         let still = State {
             v: vec![DVec2::ZERO; state.len()],
             ..state.clone()
@@ -181,6 +209,10 @@ impl Watch {
                 self.net[i] += self.one[i];
                 felt[i] += self.one[i].length();
             }
+        }
+        for (i, &push) in push.iter().enumerate() {
+            self.net[i] += push;
+            felt[i] += push.length();
         }
         self.strongest = felt.iter().copied().fold(self.strongest, f64::max);
         snake.largest_push(&still, &self.net)

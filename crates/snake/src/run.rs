@@ -196,7 +196,10 @@ pub fn run(
             return Outcome::Stopped { step: state.step };
         }
         let step = state.step;
-        match watch.as_mut().map(|watch| watch.look(snake, state)) {
+        match watch
+            .as_mut()
+            .and_then(|watch| watch.look(snake, state, &[]))
+        {
             None | Some(Verdict::Moving) => {}
             Some(Verdict::Rest) => return Outcome::Settled { step },
             Some(Verdict::Cycle { reach }) => return Outcome::Cycles { step, reach },

@@ -7,7 +7,7 @@ use integrator::{Fault, State, System, Touch};
 
 use crate::account::Account;
 use crate::parameters::{operator, pushes, scaled};
-use crate::{Acting, Body, Center, Curve, SnakeError, Wall, World};
+use crate::{Acting, Body, Center, Curve, SnakeError, Wall, WallLaw, World};
 
 /// A snake: a [`Body`] in a [`World`], ready to be moved by any scheme of [`integrator`].
 #[derive(Debug, Clone)]
@@ -166,6 +166,23 @@ impl Snake {
         Ok(())
     }
 
+    /// Put another rest shape in place of this one: a body that gives way, or grows.
+    ///
+    /// # Errors
+    ///
+    /// Refused: another number of nodes, or nodes that no body can have; then nothing has changed.
+    pub fn set_rest(&mut self, rest: Vec<DVec2>) -> Result<(), SnakeError> {
+        if rest.len() != self.body.len() {
+            return Err(SnakeError::OtherLength {
+                needed: self.body.len(),
+                got: rest.len(),
+            });
+        }
+        elastic::validate_nodes(&rest, self.body.topology)?;
+        self.body.rest = rest;
+        self.body.recenter()
+    }
+
     /// Put another world in place of this one: forces that come and go during a run.
     ///
     /// # Errors
@@ -198,6 +215,12 @@ impl Snake {
             let into = force.dot(wall.normal());
             if wall.distance(x) <= 1e-9 && into < 0.0 {
                 force -= wall.normal() * into;
+                if let WallLaw::Impact { friction, .. } = wall.law() {
+                    // what slides by less than friction holds does not slide
+                    let along = force.length();
+                    let held = (friction * -into).min(along);
+                    force -= force.normalize_or_zero() * held;
+                }
             }
         }
         force

@@ -1,0 +1,397 @@
+//! Many snakes in one world: they step side by side, meet, divide and go.
+//!
+//! Contact joins the steps of the single snakes by splitting, as [verlet67] does for any force: half a
+//! kick by the contact forces, a step of every snake by itself, half a kick again. The kicks come in pairs, so
+//! they keep momentum and angular momentum whatever the scheme, and lose energy only by the contact's own
+//! damping and friction.
+
+mod contact;
+mod upkeep;
+
+pub use contact::Contact;
+pub use upkeep::{Event, EventKind, Plastic, Upkeep};
+
+use elastic::Topology;
+use glam::DVec2;
+use integrator::{Fault, Scheme, SchemeError, Start, State, Stepper, System};
+use outline::OutlineError;
+
+use crate::rest::{Verdict, Watch};
+use crate::{Energies, Ledger, Rest, Snake, SnakeError};
+use contact::Meetings;
+
+/// One snake of a crowd.
+#[derive(Debug)]
+pub struct Member {
+    /// Its number: never given again when it is gone.
+    pub id: usize,
+    /// The snake.
+    pub snake: Snake,
+    /// Where it is.
+    pub state: State,
+    stepper: Box<dyn Stepper>,
+    ledger: Ledger,
+    /// Its spacing when it joined: what upkeep holds to.
+    spacing: f64,
+    watch: Option<Watch>,
+    calm: bool,
+}
+
+impl Member {
+    /// Whether its curve is closed.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.snake.body().topology == Topology::Closed
+    }
+
+    /// Its energies, with what its own ledger has booked.
+    pub fn energies(&mut self) -> Energies {
+        self.ledger.energies(&mut self.snake, &self.state)
+    }
+
+    /// Mass of the stretch of curve that node `i` stands for. M L.
+    fn mass(&self, i: usize) -> f64 {
+        self.snake.mass()[i] * self.snake.body().spacing
+    }
+}
+
+/// A crowd that could not go on.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CrowdError {
+    /// A step of one snake.
+    #[error("snake {member}: {fault}")]
+    Fault {
+        /// Which snake.
+        member: usize,
+        /// What happened to it.
+        fault: Fault,
+    },
+    /// A scheme that cannot move one of the snakes.
+    #[error("snake {member}: {error}")]
+    Scheme {
+        /// Which snake.
+        member: usize,
+        /// Why.
+        error: SchemeError,
+    },
+    /// A number that will not do.
+    #[error(transparent)]
+    Snake(#[from] SnakeError),
+    /// A curve that could not be kept in order.
+    #[error("snake {member}: {error}")]
+    Outline {
+        /// Which snake.
+        member: usize,
+        /// Why.
+        error: OutlineError,
+    },
+    /// A step too long for the contacts.
+    #[error(
+        "the contacts allow steps up to {limit}, got {dt}; a smaller step or stiffness would do"
+    )]
+    AboveLimit {
+        /// The step asked for.
+        dt: f64,
+        /// The largest.
+        limit: f64,
+    },
+}
+
+/// How a crowd moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Timing {
+    /// The scheme of every member.
+    pub scheme: Scheme,
+    /// The step. T.
+    pub dt: f64,
+    /// How a scheme with memory begins.
+    pub start: Start,
+}
+
+/// Snakes that share a world and know of each other.
+#[derive(Debug)]
+pub struct Crowd {
+    members: Vec<Member>,
+    timing: Timing,
+    contact: Option<Contact>,
+    upkeep: Upkeep,
+    rest: Option<Rest>,
+    meetings: Meetings,
+    events: Vec<Event>,
+    next_id: usize,
+    t: f64,
+    step: u64,
+    /// Lost in contacts between members, and all losses of members that are gone.
+    lost: f64,
+    /// Minus the work of forces on members that are gone.
+    work: f64,
+    /// Minus what upkeep has put in.
+    taken: f64,
+}
+
+impl Crowd {
+    /// A crowd of snakes, each where it is, at the time of the first.
+    ///
+    /// # Errors
+    ///
+    /// A scheme that cannot move a snake; a contact law that will not do, or whose stiffness asks for a
+    /// smaller step.
+    pub fn new(
+        snakes: Vec<(Snake, State)>,
+        timing: Timing,
+        contact: Option<Contact>,
+        upkeep: Upkeep,
+    ) -> Result<Self, CrowdError> {
+        let t = snakes.first().map_or(0.0, |(_, state)| state.t);
+        let mut crowd = Self {
+            members: Vec::new(),
+            timing,
+            contact,
+            upkeep,
+            rest: None,
+            meetings: Meetings::default(),
+            events: Vec::new(),
+            next_id: 0,
+            t,
+            step: 0,
+            lost: 0.0,
+            work: 0.0,
+            taken: 0.0,
+        };
+        upkeep.validate()?;
+        for (snake, state) in snakes {
+            crowd.join(snake, State { t, ..state })?;
+        }
+        if let Some(contact) = &crowd.contact {
+            contact.validate()?;
+            let limit = contact.step_limit(&crowd.members);
+            if timing.dt > limit {
+                return Err(CrowdError::AboveLimit {
+                    dt: timing.dt,
+                    limit,
+                });
+            }
+        }
+        crowd.meet()?;
+        Ok(crowd)
+    }
+
+    /// One more snake, from now on.
+    fn join(&mut self, mut snake: Snake, state: State) -> Result<(), CrowdError> {
+        let member = self.next_id;
+        let stepper = self
+            .timing
+            .scheme
+            .start(&mut snake, &state, self.timing.dt, self.timing.start)
+            .map_err(|error| CrowdError::Scheme { member, error })?;
+        let ledger = Ledger::begin(&mut snake, &state)
+            .map_err(|fault| CrowdError::Fault { member, fault })?;
+        let spacing = snake.body().spacing;
+        self.members.push(Member {
+            id: member,
+            snake,
+            state,
+            stepper,
+            ledger,
+            spacing,
+            watch: None,
+            calm: false,
+        });
+        self.next_id += 1;
+        Ok(())
+    }
+
+    /// The snakes that are there.
+    #[must_use]
+    pub fn members(&self) -> &[Member] {
+        &self.members
+    }
+
+    /// The same, to be changed between two steps: worlds and bodies, not places.
+    pub fn members_mut(&mut self) -> &mut [Member] {
+        &mut self.members
+    }
+
+    /// What has happened to curves so far.
+    #[must_use]
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// The time. T.
+    #[must_use]
+    pub const fn t(&self) -> f64 {
+        self.t
+    }
+
+    /// Steps made.
+    #[must_use]
+    pub const fn steps(&self) -> u64 {
+        self.step
+    }
+
+    /// Move everything one step on.
+    ///
+    /// # Errors
+    ///
+    /// The first snake that could not make its step, or whose curve could not be kept in order.
+    pub fn step(&mut self) -> Result<(), CrowdError> {
+        let half = 0.5 * self.timing.dt;
+        self.kick(half)?;
+        for member in &mut self.members {
+            let id = member.id;
+            let fault = |fault| CrowdError::Fault { member: id, fault };
+            member
+                .stepper
+                .step(&mut member.snake, &mut member.state)
+                .map_err(fault)?;
+            member
+                .ledger
+                .book(&mut member.snake, &member.state)
+                .map_err(fault)?;
+        }
+        self.step += 1;
+        self.t = self.members.first().map_or(self.t, |member| member.state.t);
+        self.meet()?;
+        self.kick(half)?;
+        if self.upkeep.is_due(self.step) {
+            self.keep_up()?;
+        }
+        self.look();
+        Ok(())
+    }
+
+    /// Watch for rest from now on. Where curves rub on each other, what friction holds cannot be told from
+    /// what is out of balance, and rest is a matter of motion alone.
+    pub fn watch(&mut self, rest: Rest) {
+        let rubs = self.contact.is_some_and(|contact| contact.friction > 0.0);
+        let balance = if rubs { f64::INFINITY } else { rest.balance };
+        self.rest = Some(Rest { balance, ..rest });
+        for member in &mut self.members {
+            member.watch = None;
+        }
+    }
+
+    /// Whether every snake is at rest, or never will be: goes to and fro, is lost or has collapsed.
+    #[must_use]
+    pub fn is_at_rest(&self) -> bool {
+        self.members.iter().all(|member| member.calm)
+    }
+
+    /// Look at every snake, if asked to.
+    fn look(&mut self) {
+        let Some(rest) = self.rest else { return };
+        let each = self.members.iter().map(|m| m.snake.body().spacing);
+        let spacings: Vec<f64> = each.collect();
+        for (k, member) in self.members.iter_mut().enumerate() {
+            let (snake, state) = (&mut member.snake, &member.state);
+            let watch = member
+                .watch
+                .get_or_insert_with(|| Watch::new(rest, snake, state));
+            let push = self.contact.as_ref().map_or(&[][..], |contact| {
+                self.meetings
+                    .force_on(contact, k, |k| spacings[k], state.len())
+            });
+            // what it found holds until another window ends with something else
+            if let Some(verdict) = watch.look(snake, state, push) {
+                member.calm = verdict != Verdict::Moving;
+            }
+        }
+    }
+
+    /// Find who touches whom.
+    fn meet(&mut self) -> Result<(), CrowdError> {
+        match &self.contact {
+            Some(contact) => self.meetings.find(contact, &self.members),
+            None => Ok(()),
+        }
+    }
+
+    /// Let the contacts push for that long.
+    fn kick(&mut self, time: f64) -> Result<(), CrowdError> {
+        let Some(contact) = &self.contact else {
+            return Ok(());
+        };
+        self.lost += self.meetings.kick(contact, &mut self.members, time);
+        for (k, member) in self.members.iter_mut().enumerate() {
+            if self.meetings.kicked(k) {
+                member.resume()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What the forces of [`Crowd::energies`] are called: those of every member's world together, and what
+    /// the contacts between members hold.
+    pub const FORCES: [&str; 2] = ["outside", "between"];
+
+    /// All energies, those of the members added up. Losses in contacts between members stand under
+    /// `contact`, and what upkeep has put in under `parameters`.
+    pub fn energies(&mut self) -> Energies {
+        let mut sum = Energies {
+            forces: vec![self.work, 0.0],
+            contact: self.lost,
+            parameters: self.taken,
+            ..Energies::default()
+        };
+        if let Some(contact) = &self.contact {
+            sum.forces[1] = self.meetings.energy(contact, &self.members);
+        }
+        for member in &mut self.members {
+            let energies = member.energies();
+            sum.kinetic += energies.kinetic;
+            sum.tether += energies.tether;
+            sum.tension += energies.tension;
+            sum.rigidity += energies.rigidity;
+            sum.forces[0] += energies.forces.iter().sum::<f64>();
+            sum.wall += energies.wall;
+            sum.damping += energies.damping;
+            sum.contact += energies.contact;
+            sum.parameters += energies.parameters;
+        }
+        sum
+    }
+
+    /// Momentum of all members, `Σ h Σ μ v`. M L² T⁻¹.
+    #[must_use]
+    pub fn momentum(&self) -> DVec2 {
+        let each = |member: &Member| -> DVec2 {
+            let nodes = member.state.v.iter().enumerate();
+            nodes.map(|(i, v)| member.mass(i) * *v).sum()
+        };
+        self.members.iter().map(each).sum()
+    }
+
+    /// Angular momentum of all members about the origin, `Σ h Σ μ x × v`. M L³ T⁻¹.
+    #[must_use]
+    pub fn angular_momentum(&self) -> f64 {
+        let each = |member: &Member| -> f64 {
+            let pairs = member.state.x.iter().zip(&member.state.v).enumerate();
+            pairs
+                .map(|(i, (x, v))| member.mass(i) * x.perp_dot(*v))
+                .sum()
+        };
+        self.members.iter().map(each).sum()
+    }
+
+    /// How deep the deepest node is in another snake, and 0 where none is. L.
+    #[must_use]
+    pub fn deepest(&self) -> f64 {
+        let gap = self.contact.as_ref().map_or(0.0, |contact| contact.gap);
+        (self.meetings.deepest() - gap).max(0.0)
+    }
+}
+
+impl Member {
+    /// Tell its scheme and its ledger that someone else has moved it.
+    fn resume(&mut self) -> Result<(), CrowdError> {
+        self.stepper.resume(&mut self.snake, &self.state);
+        self.ledger
+            .resume(&mut self.snake, &self.state)
+            .map_err(|fault| CrowdError::Fault {
+                member: self.id,
+                fault,
+            })
+    }
+}

@@ -1,0 +1,353 @@
+//! Snakes that meet, divide, and are kept in order.
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test: a snake that cannot be built should stop it"
+)]
+
+use elastic::{Material, Topology};
+use glam::DVec2;
+use integrator::{Scheme, Start, State};
+use proptest as _;
+use snake::{
+    Body, Contact, Crowd, EventKind, Plastic, Rest, Snake, Timing, Upkeep, Wall, WallLaw, World,
+};
+use {banded as _, field as _, outline as _, thiserror as _};
+
+const LAYER: Contact = Contact {
+    stiffness: 60.0,
+    damping: 0.0,
+    friction: 0.0,
+    gap: 0.2,
+    stop: 0.3,
+    own: false,
+};
+
+fn timing(scheme: Scheme, dt: f64) -> Timing {
+    Timing {
+        scheme,
+        dt,
+        start: Start::SecondOrder,
+    }
+}
+
+fn ball(center: DVec2, radius: f64, n: usize, v: DVec2) -> (Body, State) {
+    let nodes = elastic::circle(center, radius, n);
+    let body = Body::of(&nodes, Topology::Closed, 1.0)
+        .unwrap()
+        .with_material(Material::uniform(1.0, 20.0, 4.0));
+    let mut state = State::at_rest(nodes);
+    state.v.fill(v);
+    (body, state)
+}
+
+fn free((body, state): (Body, State)) -> (Snake, State) {
+    (Snake::new(body, World::default()).unwrap(), state)
+}
+
+fn two() -> Vec<(Snake, State)> {
+    vec![
+        free(ball(DVec2::new(0.0, 0.0), 3.0, 40, DVec2::new(2.0, 0.3))),
+        free(ball(DVec2::new(7.5, 1.5), 2.0, 25, DVec2::new(-1.0, 0.0))),
+    ]
+}
+
+#[test]
+fn two_balls_that_meet_keep_momentum_under_every_scheme() {
+    for scheme in [
+        Scheme::Report,
+        Scheme::Leapfrog,
+        Scheme::Imex,
+        Scheme::Newmark,
+    ] {
+        let mut crowd =
+            Crowd::new(two(), timing(scheme, 2e-3), Some(LAYER), Upkeep::default()).unwrap();
+        let p = crowd.momentum();
+        let (mut met, mut deepest) = (0.0_f64, 0.0_f64);
+        for _ in 0..2500 {
+            crowd.step().unwrap();
+            met = met.max(crowd.energies().forces[1]);
+            deepest = deepest.max(crowd.deepest());
+        }
+        assert!(met > 0.1, "{}: they never met", scheme.name());
+        // the report's form of the step cancels digits: rounding times μ/dt²
+        let off = crowd.momentum().distance(p) / p.length();
+        assert!(off < 1e-8, "{}: {off}", scheme.name());
+        // the stop, and the way of a step
+        assert!(deepest < 0.3 + 0.01, "{}: {deepest}", scheme.name());
+    }
+}
+
+#[test]
+fn contacts_alone_keep_angular_momentum_too() {
+    // dust without elasticity: a translating frame resists turning, and would hide what contacts do
+    let mut snakes = two();
+    for (snake, _) in &mut snakes {
+        let dust = snake
+            .body()
+            .clone()
+            .with_material(Material::uniform(0.0, 0.0, 0.0));
+        snake.set_body(dust).unwrap();
+    }
+    let mut crowd = Crowd::new(
+        snakes,
+        timing(Scheme::Leapfrog, 2e-3),
+        Some(LAYER),
+        Upkeep::default(),
+    )
+    .unwrap();
+    let (p, l) = (crowd.momentum(), crowd.angular_momentum());
+    let mut met = 0.0_f64;
+    for _ in 0..2500 {
+        crowd.step().unwrap();
+        met = met.max(crowd.energies().forces[1]);
+    }
+    assert!(met > 0.1, "they never met");
+    assert!(crowd.momentum().distance(p) < 1e-12 * p.length());
+    assert!((crowd.angular_momentum() - l).abs() < 1e-11 * l.abs().max(p.length()));
+}
+
+#[test]
+fn the_account_of_a_crowd_closes_by_the_square_of_the_step() {
+    let gap = |dt: f64| {
+        let law = Contact {
+            damping: 1.0,
+            friction: 0.3,
+            ..LAYER
+        };
+        let mut crowd = Crowd::new(
+            two(),
+            timing(Scheme::Leapfrog, dt),
+            Some(law),
+            Upkeep::default(),
+        )
+        .unwrap();
+        let first = crowd.energies().total();
+        let mut gap = 0.0_f64;
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a few thousand"
+        )]
+        let steps = (5.0 / dt).round() as usize;
+        for _ in 0..steps {
+            crowd.step().unwrap();
+            gap = gap.max((crowd.energies().total() - first).abs());
+        }
+        let lost = crowd.energies().contact;
+        assert!(lost > 0.05, "damping and friction took {lost}");
+        gap / first
+    };
+    let (coarse, fine) = (gap(4e-3), gap(1e-3));
+    // the layer begins with a kink, so a node's first step in it is off by more than a square
+    assert!(fine < 2e-3 && fine < 0.3 * coarse, "{coarse} {fine}");
+}
+
+#[test]
+fn a_pile_in_a_box_comes_to_lie_without_deep_overlap() {
+    let law = WallLaw::Impact {
+        restitution: 0.3,
+        friction: 0.3,
+    };
+    let mut snakes = Vec::new();
+    for k in 0..6 {
+        let at = DVec2::new(
+            2.6 + 4.2 * f64::from(k % 2) + 0.3 * f64::from(k),
+            3.0 + 4.5 * f64::from(k / 2),
+        );
+        let (body, state) = ball(at, 2.0, 24, DVec2::ZERO);
+        let mut world = World::default().with_gravity(DVec2::new(0.0, -3.0));
+        for (point, normal) in [
+            (DVec2::ZERO, DVec2::Y),
+            (DVec2::ZERO, DVec2::X),
+            (DVec2::new(10.0, 0.0), DVec2::NEG_X),
+        ] {
+            world = world.with_wall(Wall::new(point, normal, law).unwrap());
+        }
+        let firm = Material::uniform(8.0, 200.0, 100.0);
+        let body = body.with_material(firm).with_damping(0.5);
+        snakes.push((Snake::new(body, world).unwrap(), state));
+    }
+    let law = Contact {
+        stiffness: 200.0,
+        damping: 4.0,
+        friction: 0.3,
+        ..LAYER
+    };
+    let mut crowd = Crowd::new(
+        snakes,
+        timing(Scheme::Leapfrog, 2e-3),
+        Some(law),
+        Upkeep::default(),
+    )
+    .unwrap();
+    let mut deepest = 0.0_f64;
+    for _ in 0..6000 {
+        crowd.step().unwrap();
+        deepest = deepest.max(crowd.deepest());
+    }
+    // the stop, and the way of two steps at the speed of the fall, 12 at g 3
+    assert!(deepest < 0.3 + 2.0 * 8.5 * 2e-3, "{deepest}");
+    let energies = crowd.energies();
+    assert!(energies.kinetic < 0.5, "{energies:?}");
+}
+
+#[test]
+fn two_balls_pressed_together_come_to_rest_against_each_other() {
+    let law = WallLaw::Penalty {
+        stiffness: 60.0,
+        damping: 0.0,
+    };
+    let mut snakes = Vec::new();
+    for x in [2.0, 5.5] {
+        let (body, state) = ball(DVec2::new(x, 0.0), 2.0, 24, DVec2::ZERO);
+        let mut world = World::default();
+        // a box too narrow for both, and too low to slip past each other
+        for (point, normal) in [
+            (DVec2::new(0.2, 0.0), DVec2::X),
+            (DVec2::new(7.3, 0.0), DVec2::NEG_X),
+            (DVec2::new(0.0, -2.1), DVec2::Y),
+            (DVec2::new(0.0, 2.1), DVec2::NEG_Y),
+        ] {
+            world = world.with_wall(Wall::new(point, normal, law).unwrap());
+        }
+        snakes.push((Snake::new(body.with_damping(2.0), world).unwrap(), state));
+    }
+    let mut crowd = Crowd::new(
+        snakes,
+        timing(Scheme::Leapfrog, 5e-3),
+        Some(LAYER),
+        Upkeep::default(),
+    )
+    .unwrap();
+    crowd.watch(Rest::default());
+    while crowd.steps() < 30_000 && !crowd.is_at_rest() {
+        crowd.step().unwrap();
+    }
+    assert!(crowd.is_at_rest());
+    let energies = crowd.energies();
+    // at rest, and yet pressed: what is out of balance is a thousandth of what pushes
+    assert!(
+        energies.forces[1] > 0.01 && energies.kinetic < 1e-6,
+        "{energies:?}"
+    );
+}
+
+#[test]
+fn re_spacing_keeps_mass_momentum_and_spin_and_books_its_energy() {
+    let (mut body, mut state) = ball(DVec2::ZERO, 3.0, 30, DVec2::new(1.0, -0.5));
+    // grows to twice its size, and spins
+    body.rest.iter_mut().for_each(|r| *r *= 2.0);
+    for (v, x) in state.v.iter_mut().zip(&state.x) {
+        *v += 0.4 * x.perp();
+    }
+    let upkeep = Upkeep {
+        every: 10,
+        stretch: Some(1.5),
+        ..Upkeep::default()
+    };
+    let mut crowd = Crowd::new(
+        vec![free((body, state))],
+        timing(Scheme::Leapfrog, 1e-3),
+        None,
+        upkeep,
+    )
+    .unwrap();
+    let mass = |crowd: &Crowd| {
+        let snake = &crowd.members()[0].snake;
+        snake.body().spacing
+            * snake
+                .body()
+                .mass
+                .to_vec(snake.body().len())
+                .iter()
+                .sum::<f64>()
+    };
+    let (m, p, total) = (mass(&crowd), crowd.momentum(), crowd.energies().total());
+    for _ in 0..2000 {
+        crowd.step().unwrap();
+    }
+    let respaced = crowd
+        .events()
+        .iter()
+        .filter(|e| matches!(e.kind, EventKind::Respaced { from, to } if from != to))
+        .count();
+    assert!(respaced > 0);
+    assert!(crowd.members()[0].state.len() > 40);
+    assert!((mass(&crowd) / m - 1.0).abs() < 1e-12);
+    assert!(crowd.momentum().distance(p) < 1e-9 * m);
+    let after = crowd.energies();
+    assert!(
+        (after.total() / total - 1.0).abs() < 1e-3,
+        "{after:?} {total}"
+    );
+    let put_in = after.parameters.abs();
+    assert!(put_in < 0.05 * total, "{put_in}");
+}
+
+#[test]
+fn an_outline_pinched_in_two_becomes_two() {
+    let (body, state) = ball(DVec2::ZERO, 4.0, 60, DVec2::ZERO);
+    let mut body = body.with_damping(4.0);
+    body.material = Material::uniform(20.0, 0.0, 0.0);
+    // a rest shape whose waist has passed through itself
+    for r in &mut body.rest {
+        r.y *= (r.x / 4.0).powi(2) * 1.6 - 0.25;
+    }
+    let upkeep = Upkeep {
+        every: 5,
+        stretch: Some(2.0),
+        least_area: Some(0.5),
+        ..Upkeep::default()
+    };
+    let mut crowd = Crowd::new(
+        vec![free((body, state))],
+        timing(Scheme::Leapfrog, 5e-3),
+        None,
+        upkeep,
+    )
+    .unwrap();
+    for _ in 0..2000 {
+        crowd.step().unwrap();
+    }
+    assert_eq!(crowd.members().len(), 2, "{:?}", crowd.events());
+    for member in crowd.members() {
+        assert!(elastic::signed_area(&member.state.x) > 0.5);
+        assert!(
+            outline::crossings(&member.state.x, true)
+                .unwrap()
+                .is_empty()
+        );
+    }
+}
+
+#[test]
+fn a_plastic_ring_keeps_a_dent_and_an_elastic_one_does_not() {
+    let dent = |plastic: Option<Plastic>| {
+        let (body, mut state) = ball(DVec2::ZERO, 3.0, 36, DVec2::ZERO);
+        for x in &mut state.x {
+            x.y *= 0.6;
+            x.x *= 1.2;
+        }
+        let upkeep = Upkeep {
+            every: 1,
+            plastic,
+            ..Upkeep::default()
+        };
+        let snakes = vec![free((body.with_damping(3.0), state))];
+        let mut crowd = Crowd::new(snakes, timing(Scheme::Leapfrog, 2e-3), None, upkeep).unwrap();
+        let first = crowd.energies().total();
+        for _ in 0..10_000 {
+            crowd.step().unwrap();
+        }
+        assert!((crowd.energies().total() / first - 1.0).abs() < 1e-3);
+        let x = &crowd.members()[0].state.x;
+        let wide = |k: usize| x.iter().map(|p| p[k].abs()).fold(0.0, f64::max);
+        wide(0) / wide(1)
+    };
+    assert!((dent(None) - 1.0).abs() < 1e-3);
+    let kept = dent(Some(Plastic {
+        yields_at: 0.05,
+        rate: 5.0,
+    }));
+    assert!(kept > 1.2, "{kept}");
+}
