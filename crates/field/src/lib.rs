@@ -15,6 +15,9 @@
 //! | edges of one polarity | [`SignedEdge`], which asks for the curve's normal |
 //! | what lies inside a curve and what outside | a [`Region`], which asks for the curve: [`TwoRegions`], [`LocalRegions`], [`LikelihoodRegions`] |
 //! | only some of the pixels | [`MaskedImage`] |
+//! | a schedule from coarse to fine | [`coarse_to_fine`] |
+//! | edges to a fraction of a pixel | [`edge_points`] |
+//! | noise, contrast and blur of a picture | [`image_scale`] |
 //! | a longer reach | [`distance_force`], [`vector_flow`] (GVF), [`vector_convolution`] (VFC) |
 //!
 //! All but those that ask for the curve give a [`ForceField`], which is sampled between pixel centers: bilinear, bicubic, with
@@ -25,7 +28,7 @@
 //! `[[row, column]]`. Images are checked at the door: no empty ones, no pixel that is NaN or infinite. One pixel,
 //! one row or a constant is a fine image; it has no edge and so no force.
 //!
-//! This crate does no I/O and knows nothing of what will feel the force. Not here yet: edges to sub-pixel.
+//! This crate does no I/O and knows nothing of what will feel the force.
 //!
 //! ```
 //! use field::{EdgeForce, Grid, edge_force};
@@ -39,9 +42,12 @@
 //! # Ok::<(), field::FieldError>(())
 //! ```
 
+mod canny;
 mod convolution;
 mod diffusion;
 mod distance;
+#[cfg(test)]
+mod drawn;
 mod edge;
 mod error;
 mod fast;
@@ -50,14 +56,17 @@ mod gradient;
 mod grid;
 pub mod literal;
 mod masked;
+mod measure;
 mod polarity;
 mod region;
 mod report;
 mod sample;
+mod scales;
 pub mod signal;
 mod smooth;
 mod strength;
 
+pub use canny::{Canny, EdgePoint, edge_points};
 pub use convolution::{Falloff, vector_convolution};
 pub use diffusion::{Flow, FlowRule, MOST_CYCLES, VectorFlow, vector_flow};
 pub use distance::{distance_force, edge_pixels, squared_distance};
@@ -68,6 +77,7 @@ pub use force_field::ForceField;
 pub use gradient::{Across, mask_x, mask_y};
 pub use grid::{Grid, LARGEST_PIXEL, LARGEST_SIGMA, MOST_PASSES};
 pub use masked::MaskedImage;
+pub use measure::{ImageScale, image_scale, noise_sigma};
 pub use polarity::{Polarity, SignedEdge};
 pub use region::{
     Classes, Density, LikelihoodRegions, LocalRegions, MOST_CLASS_BYTES, MOST_CLASSES, Means,
@@ -75,6 +85,7 @@ pub use region::{
 };
 pub use report::{REPORT_GAIN, REPORT_SCALE, ReportStages, report_force, report_stages};
 pub use sample::Interpolation;
+pub use scales::{CoarseToFine, Scale, coarse_to_fine};
 pub use smooth::{REPORT_PASSES, Smoothing, binomial_x, binomial_y, gaussian_weights};
 pub use strength::{
     Line, color_edge_strength, line_strength, multiscale_edge_strength, termination_strength,

@@ -204,9 +204,10 @@ fn parzen(kernel: &Grid, m: &[f64], slope: &mut [f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawn::gauss;
     use crate::masked::MaskedImage;
+    use crate::region::TwoRegions;
     use crate::region::tests::{circle, pushes, slope_agrees};
-    use crate::region::{TwoRegions, tests::gauss};
     use proptest::prelude::*;
 
     const PARZEN: Density = Density::Parzen { bandwidth: 6.0 };

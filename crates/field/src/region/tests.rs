@@ -67,19 +67,6 @@ pub(super) fn slope_agrees(
     })
 }
 
-/// The n-th number of a normal distribution: splitmix64 and Box–Muller, as the shared synthetic cases have it.
-pub(super) fn gauss(n: u64) -> f64 {
-    let mix = |z: u64| {
-        let z = z.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64
-    };
-    let unit = 2.0_f64.powi(-53);
-    let (a, b) = ((mix(2 * n) + 1.0) * unit, mix(2 * n + 1) * unit);
-    (-2.0 * a.ln()).sqrt() * (TAU * b).cos()
-}
-
 fn noise(height: usize, width: usize) -> Grid {
     Grid::from_shape_fn((height, width), |(y, x)| {
         ((x * 37 + y * 91 + x * y * 3) % 101) as f64

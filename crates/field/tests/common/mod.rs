@@ -1,4 +1,4 @@
-//! Reading the fixtures of `tests/oracle`.
+//! Reading the fixtures of `tests/oracle` and `tests/outside`.
 #![allow(dead_code, reason = "each test crate uses its own part")]
 #![allow(
     clippy::unwrap_used,
@@ -39,6 +39,12 @@ pub(crate) fn pgm(name: &str) -> Grid {
 /// A grid as text, one line a row.
 pub(crate) fn csv(name: &str) -> Grid {
     let rows = table(name, 0);
+    Grid::from_shape_vec((rows.len(), rows[0].len()), rows.concat()).unwrap()
+}
+
+/// A grid of `tests/outside`, without its ending.
+pub(crate) fn outside(name: &str) -> Grid {
+    let rows = table(&format!("../outside/{name}.csv"), 0);
     Grid::from_shape_vec((rows.len(), rows[0].len()), rows.concat()).unwrap()
 }
 
