@@ -14,6 +14,7 @@
 //! | edges in color, at several scales; lines; ends and corners | a strength grid and [`gradient_force`] |
 //! | edges of one polarity | [`SignedEdge`], which asks for the curve's normal |
 //! | what lies inside a curve and what outside | a [`Region`], which asks for the curve: [`TwoRegions`], [`LocalRegions`], [`LikelihoodRegions`] |
+//! | texture, as channels for these | [`texture_channels`] |
 //! | only some of the pixels | [`MaskedImage`] |
 //! | a schedule from coarse to fine | [`coarse_to_fine`] |
 //! | edges to a fraction of a pixel | [`edge_points`] |
@@ -81,7 +82,7 @@ pub use measure::{ImageScale, image_scale, noise_sigma};
 pub use polarity::{Polarity, SignedEdge};
 pub use region::{
     Classes, Density, LikelihoodRegions, LocalRegions, MOST_CLASS_BYTES, MOST_CLASSES, Means,
-    Region, RegionScratch, TwoRegions,
+    Region, RegionScratch, TwoRegions, texture_channels,
 };
 pub use report::{REPORT_GAIN, REPORT_SCALE, ReportStages, report_force, report_stages};
 pub use sample::Interpolation;

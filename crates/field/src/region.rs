@@ -9,11 +9,13 @@ mod likelihood;
 mod local;
 mod mixture;
 mod rows;
+mod texture;
 mod two;
 
 pub use classes::{Classes, MOST_CLASS_BYTES, MOST_CLASSES};
 pub use likelihood::{Density, LikelihoodRegions};
 pub use local::LocalRegions;
+pub use texture::texture_channels;
 pub use two::{Means, TwoRegions};
 
 use glam::DVec2;
