@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::contact::{Contacts, Moment, Pace};
 use crate::solver::Solver;
 use crate::stepper::{self, Clock, Mass};
-use crate::{Fault, SchemeError, State, Stepper, System};
+use crate::{Fault, SchemeError, State, Stepper, System, four};
 
 /// How often [`Rule::Backward`] asks again for the external force at the step's end.
 const ROUNDS: usize = 12;
@@ -93,12 +93,31 @@ impl Euler {
         self.solver.solve(&mut self.force);
     }
 
-    fn place(&mut self, x: &[DVec2]) {
-        let dt = self.clock.dt;
-        for i in 0..x.len() {
-            self.next_x[i] = x[i] + self.force[i];
-            self.next_v[i] = self.force[i] / dt;
+    /// Where the increment leads; whether to a place.
+    fn place(&mut self, x: &[DVec2]) -> bool {
+        let rate = 1.0 / self.clock.dt;
+        let to = [&mut self.next_x[..], &mut self.next_v[..]];
+        four::each([x, &self.force], to, |[x, step]| {
+            let (mut place, mut speed) = ([0.0; 8], [0.0; 8]);
+            for k in 0..8 {
+                place[k] = x[k] + step[k];
+                speed[k] = step[k] * rate;
+            }
+            [place, speed]
+        })
+    }
+
+    /// Inertia joins the forces.
+    fn carry(&mut self, system: &dyn System, v: &[DVec2]) {
+        if self.rule != Rule::GradientFlow {
+            let rate = 1.0 / self.clock.dt;
+            let n = v.len();
+            let (mass, force) = (&system.mass()[..n], &mut self.force[..n]);
+            for i in 0..n {
+                force[i] += (mass[i] * rate) * v[i];
+            }
         }
+        stepper::release(system.held(), &mut self.force);
     }
 
     /// Rounds with the external force where the last round ended.
@@ -139,21 +158,24 @@ impl Stepper for Euler {
         let end = self.clock.next();
         let at = if self.rule == Rule::Backward { end } else { t };
         self.solver.advance(system, at, &state.x)?;
-        system.elastic(&state.x, &mut self.base);
-        if self.rule != Rule::GradientFlow {
-            let mass = system.mass();
-            for i in 0..state.len() {
-                self.base[i] += mass[i] / dt * state.v[i];
-            }
-        }
-        stepper::release(system.held(), &mut self.base);
-        stepper::external(system, at, &state.x, &state.v, &mut self.force)?;
-        self.increment();
-        self.place(&state.x);
+        let mut finite = false;
         if self.rule == Rule::Backward && !system.external_is_constant() {
+            system.elastic(&state.x, &mut self.force);
+            self.carry(system, &state.v);
+            self.base.copy_from_slice(&self.force);
+            stepper::external(system, at, &state.x, &state.v, &mut self.force)?;
+            self.increment();
+            self.place(&state.x);
             self.settle(system, &state.x)?;
+        } else {
+            stepper::force(system, at, &state.x, &state.v, &mut self.force)?;
+            self.carry(system, &state.v);
+            self.solver.solve(&mut self.force);
+            finite = self.place(&state.x);
         }
-        stepper::finite(&self.next_x)?;
+        if !finite {
+            stepper::finite(&self.next_x)?;
+        }
         let moment = Moment {
             t: end,
             dt,

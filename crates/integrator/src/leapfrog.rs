@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::contact::{Contacts, Moment, Pace};
 use crate::stepper::{self, Clock, Mass};
-use crate::{Fault, SchemeError, Start, State, Stepper, System};
+use crate::{Fault, SchemeError, Start, State, Stepper, System, four};
 
 /// Leapfrog with centred damping, in increments.
 ///
@@ -106,19 +106,28 @@ impl Leapfrog {
         let (n, dt) = (x.len(), self.clock.dt);
         let (v, force, coefficients) = (&v[..n], &self.force[..n], &self.coefficients[..n]);
         let (half, next) = (&mut self.half[..n], &mut self.next[..n]);
-        let mut finite = true;
-        let mut node = |i: usize, c: Coefficients| {
-            let speed = c.keep * v[i] + c.kick * force[i];
-            let place = x[i] + dt * speed;
-            half[i] = speed;
-            next[i] = place;
-            // no early way out: one comparison a number
-            finite &= place.x.is_finite() & place.y.is_finite();
+        let finite = if let Some(c) = self.common {
+            four::each([x, v, force], [&mut *next, half], |[x, v, force]| {
+                let (mut place, mut speed) = ([0.0; 8], [0.0; 8]);
+                for k in 0..8 {
+                    speed[k] = c.keep * v[k] + c.kick * force[k];
+                    place[k] = x[k] + dt * speed[k];
+                }
+                [place, speed]
+            })
+        } else {
+            let mut finite = true;
+            for i in 0..n {
+                let c = coefficients[i];
+                let speed = c.keep * v[i] + c.kick * force[i];
+                let place = x[i] + dt * speed;
+                half[i] = speed;
+                next[i] = place;
+                // no early way out: one comparison a number
+                finite &= place.x.is_finite() & place.y.is_finite();
+            }
+            finite
         };
-        match self.common {
-            Some(c) => (0..n).for_each(|i| node(i, c)),
-            None => (0..n).for_each(|i| node(i, coefficients[i])),
-        }
         if finite {
             Ok(())
         } else {
@@ -131,10 +140,19 @@ impl Leapfrog {
         let n = v.len();
         let (half, force) = (&self.half[..n], &self.force[..n]);
         let coefficients = &self.coefficients[..n];
-        let mut node = |i: usize, c: Coefficients| v[i] = c.settle * (half[i] + c.kick * force[i]);
-        match self.common {
-            Some(c) => (0..n).for_each(|i| node(i, c)),
-            None => (0..n).for_each(|i| node(i, coefficients[i])),
+        if let Some(c) = self.common {
+            four::each([half, force], [v], |[half, force]| {
+                let mut speed = [0.0; 8];
+                for k in 0..8 {
+                    speed[k] = c.settle * (half[k] + c.kick * force[k]);
+                }
+                [speed]
+            });
+            return;
+        }
+        for i in 0..n {
+            let c = coefficients[i];
+            v[i] = c.settle * (half[i] + c.kick * force[i]);
         }
     }
 

@@ -32,6 +32,7 @@ mod dormand_prince;
 mod error;
 mod euler;
 mod exact;
+mod four;
 mod leapfrog;
 mod limits;
 mod linear;
