@@ -26,6 +26,7 @@
 //! ```
 
 mod adaptive;
+mod batch;
 mod collocation;
 mod contact;
 mod dormand_prince;
@@ -56,6 +57,7 @@ mod watched;
 mod tests;
 
 pub use adaptive::Adaptive;
+pub use batch::{Job, run_jobs};
 pub use contact::kinetic_energy;
 pub use dormand_prince::DormandPrince;
 pub use error::SchemeError;
