@@ -94,6 +94,17 @@ impl<const P: usize> Banded<P> {
         }
     }
 
+    /// Sets a row's own element, and those beside it on the right (wrapped round when cyclic; when open, what
+    /// runs off the end must be 0).
+    pub fn set_row(&mut self, i: usize, diagonal: f64, beside: [f64; P]) {
+        debug_assert!(
+            self.cyclic || beside.iter().skip(self.len() - 1 - i).all(|a| *a == 0.0),
+            "nothing runs off the end"
+        );
+        self.diagonal[i] = diagonal;
+        self.beside[i] = beside;
+    }
+
     /// Adds `weight · r rᵀ`, with the non-zero elements of `r` given as (index, value).
     pub fn add_outer(&mut self, weight: f64, row: &[(usize, f64)]) {
         for (k, &(i, left)) in row.iter().enumerate() {
@@ -158,58 +169,12 @@ impl<const P: usize> BandedFactor<P> {
     /// working precision (condition number above about 1e14), and numbers that are not finite.
     pub fn new(a: &Banded<P>) -> Result<Self, BandedError> {
         let n = a.len();
-        let inner = if a.cyclic { n - P } else { n };
-        let (mut d, mut off) = (a.diagonal.clone(), a.beside.clone());
-        let mut spikes = vec![[0.0; P]; if a.cyclic { inner } else { 0 }];
-        let mut corner = [[0.0; P]; P];
-        if a.cyclic {
-            for b in 0..P {
-                (0..P).for_each(|c| corner[b][c] = a.entry(inner + b, inner + c));
-                for i in (0..P).chain(inner - P..inner) {
-                    spikes[i][b] = a.entry(i, inner + b);
-                }
-            }
-        }
-        let faded = FADED * d.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
-        let mut links = Vec::with_capacity(inner);
-        for i in 0..inner {
-            let reciprocal = positive(d[i], i)?;
-            let reach = P.min(inner - 1 - i);
-            off[i][reach..].fill(0.0);
-            let column = off[i];
-            let scaled = column.map(|a| a * reciprocal);
-            for k in 0..reach {
-                d[i + k + 1] -= scaled[k] * column[k];
-                for j in k + 1..reach {
-                    off[i + k + 1][j - k - 1] -= scaled[k] * column[j];
-                }
-            }
-            links.push((reciprocal, scaled));
-            if a.cyclic {
-                let spike = spikes[i];
-                if spike.iter().all(|g| g.abs() <= faded) {
-                    spikes[i] = [0.0; P];
-                    continue;
-                }
-                for k in 0..reach {
-                    (0..P).for_each(|b| spikes[i + k + 1][b] -= scaled[k] * spike[b]);
-                }
-                spikes[i] = spike.map(|g| g * reciprocal);
-                for b in 0..P {
-                    (0..P).for_each(|c| corner[b][c] -= spikes[i][b] * spike[c]);
-                }
-            }
-        }
-        let border = if a.cyclic {
-            small_factor(corner, inner)?
-        } else {
-            Vec::new()
+        let mut factor = Self {
+            links: Vec::new(),
+            spikes: Vec::new(),
+            border: Vec::new(),
         };
-        let factor = Self {
-            links,
-            spikes,
-            border,
-        };
+        factor.renew(a)?;
         let Weakest {
             row,
             reciprocal_condition,
@@ -225,6 +190,80 @@ impl<const P: usize> BandedFactor<P> {
         } else {
             Ok(factor)
         }
+    }
+
+    /// Factors another matrix in the same memory, for those that change at every step. O(n P²).
+    ///
+    /// Leaves out the estimate of the condition number, which costs as much as some solves: what
+    /// [`new`](Self::new) would refuse as singular to working precision passes here unless a pivot is not
+    /// positive. After an error the factor is of no use until the next.
+    ///
+    /// # Errors
+    ///
+    /// Refuses, with the row, a matrix that is not positive definite, and numbers that are not finite.
+    pub fn renew(&mut self, a: &Banded<P>) -> Result<(), BandedError> {
+        let n = a.len();
+        let inner = if a.cyclic { n - P } else { n };
+        self.spikes.clear();
+        let mut corner = [[0.0; P]; P];
+        if a.cyclic {
+            self.spikes.resize(inner, [0.0; P]);
+            for b in 0..P {
+                (0..P).for_each(|c| corner[b][c] = a.entry(inner + b, inner + c));
+                for i in (0..P).chain(inner - P..inner) {
+                    self.spikes[i][b] = a.entry(i, inner + b);
+                }
+            }
+        }
+        let faded = FADED * a.diagonal.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
+        self.links.clear();
+        // what the rows before take from this one and the next P: diagonal, then beside
+        let mut taken = [[0.0; P]; P];
+        let mut taken_diagonal = [0.0; P];
+        for i in 0..inner {
+            let reciprocal = positive(a.diagonal[i] - taken_diagonal[0], i)?;
+            let mut column = a.beside[i];
+            for k in 0..P {
+                column[k] -= taken[0][k];
+            }
+            let reach = P.min(inner - 1 - i);
+            column[reach..].fill(0.0);
+            let scaled = column.map(|a| a * reciprocal);
+            for k in 1..P {
+                taken_diagonal[k - 1] = taken_diagonal[k];
+                taken[k - 1] = taken[k];
+            }
+            taken_diagonal[P - 1] = 0.0;
+            taken[P - 1] = [0.0; P];
+            for k in 0..P {
+                taken_diagonal[k] += scaled[k] * column[k];
+                for j in k + 1..P {
+                    taken[k][j - k - 1] += scaled[k] * column[j];
+                }
+            }
+            self.links.push((reciprocal, scaled));
+            if a.cyclic {
+                let spikes = &mut self.spikes;
+                let spike = spikes[i];
+                if spike.iter().all(|g| g.abs() <= faded) {
+                    spikes[i] = [0.0; P];
+                    continue;
+                }
+                for k in 0..reach {
+                    (0..P).for_each(|b| spikes[i + k + 1][b] -= scaled[k] * spike[b]);
+                }
+                spikes[i] = spike.map(|g| g * reciprocal);
+                for b in 0..P {
+                    (0..P).for_each(|c| corner[b][c] -= spikes[i][b] * spike[c]);
+                }
+            }
+        }
+        self.border = if a.cyclic {
+            small_factor(corner, inner)?
+        } else {
+            Vec::new()
+        };
+        Ok(())
     }
 
     /// The number of rows.

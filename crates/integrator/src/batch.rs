@@ -77,7 +77,6 @@ pub fn run_jobs<S: System + Send>(jobs: &mut [Job<S>], steps: u64, threads: NonZ
         }
         work();
     });
-    drop(shares);
     all(jobs)
 }
 

@@ -19,7 +19,7 @@ use crate::{Fault, SchemeError, State, Stepper, System};
 ///
 /// `G` is the part of ∂f/∂x that pulls back: its symmetric part without what is above zero, so that the
 /// matrix is positive definite at any step; what pushes away is left explicit. Where the system
-/// knows no slope, or a constant force, it is the scheme named imex. Factors a band twice as wide each step, which allocates. O(n).
+/// knows no slope, or a constant force, it is the scheme named imex. Factors a band twice as wide each step. O(n).
 ///
 /// [baraff98].
 #[derive(Debug)]
@@ -28,6 +28,10 @@ pub(crate) struct LinearlyImplicit {
     /// Without the slope: for contacts, and for systems that know none.
     solver: Solver,
     correction: Option<Correction>,
+    /// The matrix with the slopes in it, x and y of each node in turn.
+    wide: Banded<4>,
+    /// Its factor, made anew in the same memory each step.
+    factor: Option<BandedFactor<4>>,
     slope: Vec<DMat2>,
     force: Vec<DVec2>,
     external: Vec<DVec2>,
@@ -55,6 +59,8 @@ impl LinearlyImplicit {
             clock: Clock::new(state, dt),
             solver: Solver::new(Self::NAME, Mass::Optional, system, weights)?,
             correction: Correction::new(system.stiffness())?,
+            wide: Banded::new(2 * n, system.stiffness().band().is_cyclic())?,
+            factor: None,
             slope: vec![DMat2::ZERO; n],
             force: zeros(),
             external: zeros(),
@@ -69,33 +75,36 @@ impl LinearlyImplicit {
     fn solve(&mut self, system: &dyn System) -> Result<(), SchemeError> {
         let band = self.solver.matrix().band();
         let n = self.force.len();
-        let mut wide = Banded::<4>::new(2 * n, band.is_cyclic())?;
+        let held = system.held();
+        let (diagonal, first, second) = (band.diagonal(), band.first(), band.second());
         for i in 0..n {
-            let held = system.held()[i];
-            let pull = if held {
+            let pull = if held[i] {
                 DMat2::ZERO
             } else {
                 pulling(self.slope[i])
             };
-            for (axis, own) in [(0, pull.x_axis.x), (1, pull.y_axis.y)] {
-                let row = 2 * i + axis;
-                wide.add(row, row, band.diagonal()[i] - own);
-                for (reach, value) in [(2, band.first()[i]), (4, band.second()[i])] {
-                    let there = row + reach;
-                    if band.is_cyclic() || there < 2 * n {
-                        wide.add(row, there % (2 * n), value);
-                    }
-                }
-            }
-            wide.add(2 * i, 2 * i + 1, -pull.x_axis.y);
+            let (own, near, far) = (diagonal[i], first[i], second[i]);
+            let between = -pull.x_axis.y;
+            // x and y of this node, then of the next, then of the one after
+            let row = 2 * i;
+            self.wide
+                .set_row(row, own - pull.x_axis.x, [between, near, 0.0, far]);
+            self.wide
+                .set_row(row + 1, own - pull.y_axis.y, [0.0, near, 0.0, far]);
         }
-        let factor = BandedFactor::new(&wide)?;
+        match &mut self.factor {
+            Some(factor) => factor.renew(&self.wide)?,
+            none => *none = Some(BandedFactor::new(&self.wide)?),
+        }
+        let Some(factor) = &self.factor else {
+            return Ok(());
+        };
         for (i, force) in self.force.iter().enumerate() {
             (self.flat[2 * i], self.flat[2 * i + 1]) = (force.x, force.y);
         }
         factor.solve_scalars(&mut self.flat);
         if let Some(correction) = &self.correction {
-            correction.apply(&factor, &mut self.flat)?;
+            correction.apply(factor, &mut self.flat)?;
         }
         for (i, force) in self.force.iter_mut().enumerate() {
             *force = DVec2::new(self.flat[2 * i], self.flat[2 * i + 1]);

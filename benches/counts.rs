@@ -1,0 +1,252 @@
+//! Instructions of the inner loops, counted by callgrind and held against pinned numbers.
+//!
+//! Times are at the mercy of whoever else is on the machine, instructions are not. `cargo run --release -p benches
+//! --example counts` runs each kernel under valgrind, takes off what setting it up costs, and compares with
+//! `benches/counts.csv`; more than 2 % either way is a failure. `-- --accept` writes what was found instead. Without
+//! valgrind, or with another compiler than the one the numbers are from, it says so and leaves it at that.
+
+#![allow(clippy::print_stdout, reason = "a bench tells what it found")]
+
+use std::error::Error;
+use std::hint::black_box;
+use std::path::PathBuf;
+use std::process::{Command, ExitCode};
+
+use banded::{Factor, Pentadiagonal};
+use elastic::{Material, Topology};
+use field::{EdgeForce, Grid, Interpolation};
+use glam::DVec2;
+use integrator::problems;
+use integrator::{Scheme, Start, State};
+use snake::{Body, Snake, World};
+
+/// How far a count may be from the pinned one, relative.
+const ALLOWED: f64 = 0.02;
+
+/// How often a kernel runs under the counter.
+const TIMES: u32 = 20;
+
+type Outcome<T> = Result<T, Box<dyn Error>>;
+
+/// Something to count: set up once, then run as often as asked.
+type Kernel = fn(u32) -> Outcome<()>;
+
+const KERNELS: [(&str, Kernel); 11] = [
+    ("banded-solve/1000", solve),
+    ("elastic-force/1000", elastic_force),
+    ("leapfrog-step/1000", |times| {
+        step(Scheme::Leapfrog, 1000, times)
+    }),
+    ("imex-step/1000", |times| step(Scheme::Imex, 1000, times)),
+    ("newmark-step/1000", |times| {
+        step(Scheme::Newmark, 1000, times)
+    }),
+    ("linearly-implicit-step/200", |times| {
+        stiff(Scheme::LinearlyImplicit, 200, times)
+    }),
+    ("gauss-4-step/200", |times| {
+        stiff(Scheme::Gauss4, 200, times)
+    }),
+    ("exact-step/200", |times| stiff(Scheme::Exact, 200, times)),
+    ("field-sample/1000", sample),
+    ("field-report/64x64", report),
+    ("field-edge/64x64", edge),
+];
+
+fn wave(n: usize) -> Vec<DVec2> {
+    (0..n).map(|i| DVec2::from_angle(0.7 * i as f64)).collect()
+}
+
+fn solve(times: u32) -> Outcome<()> {
+    let mut band = Pentadiagonal::new(1000, true)?;
+    band.add_identity(7.0);
+    for i in 0..1000 {
+        band.add(i, (i + 1) % 1000, -2.0);
+        band.add(i, (i + 2) % 1000, 0.5);
+    }
+    let factor = Factor::new(&band)?;
+    let mut b = wave(1000);
+    for _ in 0..times {
+        factor.solve(black_box(&mut b));
+    }
+    Ok(())
+}
+
+fn elastic_force(times: u32) -> Outcome<()> {
+    let (e, mut force) = (wave(1000), wave(1000));
+    let material = Material::uniform(0.1, 2.0, 3.0);
+    for _ in 0..times {
+        elastic::elastic_force(black_box(&e), Topology::Closed, &material, 1.0, &mut force);
+    }
+    black_box(&force);
+    Ok(())
+}
+
+/// A snake without forces from outside.
+fn step(scheme: Scheme, n: usize, times: u32) -> Outcome<()> {
+    let nodes = elastic::circle(DVec2::splat(256.0), 205.0, n);
+    let mut state = State::at_rest(nodes.clone());
+    state.x[0].x += 0.01;
+    let body = Body::of(&nodes, Topology::Closed, 1.0)?;
+    let h = body.spacing;
+    let material = Material::uniform(0.05, 2.0 * h * h, 2.0 * h.powi(4));
+    let body = body.with_material(material).with_damping(1.0);
+    let mut snake = Snake::new(body, World::default())?;
+    let mut stepper = scheme.start(&mut snake, &state, 0.05, Start::SecondOrder)?;
+    for _ in 0..times {
+        stepper.step(&mut snake, &mut state)?;
+    }
+    Ok(())
+}
+
+/// A ring of springs that are partly external.
+fn stiff(scheme: Scheme, n: usize, times: u32) -> Outcome<()> {
+    let ring = problems::ring(n, 1.0, 2.0, [0.1, 20.0, 70.0])?;
+    let (mut system, mut state) = (ring.system, ring.state);
+    if scheme == Scheme::LinearlyImplicit {
+        system.pull = 1.0;
+    }
+    let mut stepper = scheme.start(&mut system, &state, 0.04, Start::SecondOrder)?;
+    for _ in 0..times {
+        stepper.step(&mut system, &mut state)?;
+    }
+    Ok(())
+}
+
+fn picture() -> Grid {
+    Grid::from_shape_fn((64, 64), |(y, x)| {
+        let p = DVec2::new(x as f64, y as f64) - 31.5;
+        if p.length() < 20.0 { 200.0 } else { 60.0 }
+    })
+}
+
+fn sample(times: u32) -> Outcome<()> {
+    let field = field::edge_force(&picture(), &EdgeForce::as_strong_as_the_report())?;
+    let points: Vec<DVec2> = wave(1000).iter().map(|p| 31.5 + 20.0 * *p).collect();
+    let mut forces = points.clone();
+    for _ in 0..times {
+        field.sample_into(black_box(&points), Interpolation::Bilinear, &mut forces);
+    }
+    black_box(&forces);
+    Ok(())
+}
+
+fn report(times: u32) -> Outcome<()> {
+    let picture = picture();
+    for _ in 0..times {
+        let passes = field::REPORT_PASSES;
+        black_box(field::report_force(
+            black_box(&picture),
+            passes,
+            field::REPORT_SCALE,
+            field::REPORT_GAIN,
+        )?);
+    }
+    Ok(())
+}
+
+fn edge(times: u32) -> Outcome<()> {
+    let (picture, rule) = (picture(), EdgeForce::as_strong_as_the_report());
+    for _ in 0..times {
+        black_box(field::edge_force(black_box(&picture), &rule)?);
+    }
+    Ok(())
+}
+
+/// Instructions of one run of a kernel, as callgrind counts them.
+fn count(name: &str) -> Outcome<u64> {
+    let all = |times: u32| -> Outcome<u64> {
+        let run = Command::new("valgrind")
+            .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+            .arg(std::env::current_exe()?)
+            .args(["--kernel", name, &times.to_string()])
+            .output()?;
+        let said = String::from_utf8_lossy(&run.stderr);
+        let total = said.lines().find_map(|line| {
+            let (_, count) = line.split_once("Collected :")?;
+            count.trim().parse().ok()
+        });
+        total.ok_or_else(|| format!("valgrind has not counted {name}:\n{said}").into())
+    };
+    Ok((all(TIMES)? - all(0)?) / u64::from(TIMES))
+}
+
+fn table() -> PathBuf {
+    [env!("CARGO_MANIFEST_DIR"), "counts.csv"].iter().collect()
+}
+
+/// What a program answers to `--version`, or nothing where there is none.
+fn version(program: &str) -> Option<String> {
+    let run = Command::new(program).arg("--version").output().ok()?;
+    let text = String::from_utf8_lossy(&run.stdout);
+    text.lines().next().map(str::to_owned)
+}
+
+fn check(accept: bool) -> Outcome<bool> {
+    let (Some(compiler), Some(_)) = (version("rustc"), version("valgrind")) else {
+        println!("no valgrind here, or no rustc: nothing counted");
+        return Ok(true);
+    };
+    let pinned = std::fs::read_to_string(table()).unwrap_or_default();
+    let with = pinned.lines().find_map(|line| line.strip_prefix("# "));
+    if !accept && with != Some(&compiler) {
+        let with = with.unwrap_or("nothing");
+        println!("the counts are from {with}, this is {compiler}: nothing compared");
+        return Ok(true);
+    }
+    let mut good = true;
+    let mut found = format!("# {compiler}\nkernel,instructions\n");
+    for (name, _) in KERNELS {
+        let now = count(name)?;
+        found += &format!("{name},{now}\n");
+        let before = pinned.lines().find_map(|line| {
+            let (key, value) = line.split_once(',')?;
+            (key == name).then(|| value.parse::<f64>().ok())?
+        });
+        let change = before.map(|before| now as f64 / before - 1.0);
+        let moved = change.is_none_or(|change| change.abs() > ALLOWED);
+        good &= !moved;
+        match change {
+            Some(change) => {
+                let word = if moved { "MOVED" } else { "as pinned" };
+                println!("{name:<28} {now:>9}  {:+6.2} %  {word}", 100.0 * change);
+            }
+            None => println!("{name:<28} {now:>9}  new"),
+        }
+    }
+    if accept {
+        std::fs::write(table(), found)?;
+        println!("written to {}", table().display());
+        return Ok(true);
+    }
+    if !good {
+        println!("if that is meant: cargo run --release -p benches --example counts -- --accept");
+    }
+    Ok(good)
+}
+
+fn run() -> Outcome<bool> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match arguments.as_slice() {
+        [] => check(false),
+        ["--accept"] => check(true),
+        ["--kernel", name, times] => {
+            let kernel = KERNELS.iter().find(|(own, _)| own == name);
+            let (_, kernel) = kernel.ok_or_else(|| format!("no kernel {name}"))?;
+            kernel(times.parse()?).map(|()| true)
+        }
+        _ => Err("usage: counts [--accept]".into()),
+    }
+}
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            println!("{error}");
+            ExitCode::from(2)
+        }
+    }
+}
