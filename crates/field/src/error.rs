@@ -66,6 +66,18 @@ pub enum FieldError {
         /// The largest value accepted.
         most: f64,
     },
+    /// The machine does not give the memory a result needs.
+    #[error(
+        "the field of {width} × {height} pixels needs {bytes} bytes, more than there is; take a part of the image or a lazy field"
+    )]
+    NoMemory {
+        /// Columns given.
+        width: usize,
+        /// Rows given.
+        height: usize,
+        /// What the forces alone take.
+        bytes: usize,
+    },
     /// Two grids that belong together differ in shape.
     #[error("both grids must have the same shape, got {} × {} and {} × {}", first.1, first.0, second.1, second.0)]
     ShapesDiffer {

@@ -69,11 +69,29 @@ impl ForceField {
         }
     }
 
-    /// Takes the memory of `f32` forces of this shape, or fresh memory.
-    pub(crate) fn take_single(&mut self, dim: (usize, usize)) -> Array2<[f32; 2]> {
+    /// Takes the memory of `f32` forces of this shape, or fresh memory if there is enough.
+    pub(crate) fn take_single(
+        &mut self,
+        dim: (usize, usize),
+    ) -> Result<Array2<[f32; 2]>, FieldError> {
         match std::mem::replace(&mut self.forces, Forces::Single(Array2::default((0, 0)))) {
-            Forces::Single(forces) if forces.dim() == dim => forces,
-            _ => Array2::default(dim),
+            Forces::Single(forces) if forces.dim() == dim => Ok(forces),
+            other => {
+                drop(other);
+                let (height, width) = dim;
+                let pixels = height.saturating_mul(width);
+                // asked for and given back: a failure while an array is made would end the program
+                let mut probe = Vec::<[f32; 2]>::new();
+                if probe.try_reserve_exact(pixels).is_err() {
+                    return Err(FieldError::NoMemory {
+                        width,
+                        height,
+                        bytes: pixels.saturating_mul(size_of::<[f32; 2]>()),
+                    });
+                }
+                drop(probe);
+                Ok(Array2::default(dim))
+            }
         }
     }
 

@@ -4,6 +4,8 @@
 //! σ = √(passes/2). At the border the line goes on as its own mirror image, `S(0) = S(1)`, which keeps the sum.
 //! Every function here smooths one axis; both axes are one after the other, in either order.
 
+pub(crate) mod wide;
+
 use crate::error::{FieldError, positive};
 use crate::grid::{Grid, LARGEST_SIGMA, mirrored, reasonable_passes};
 

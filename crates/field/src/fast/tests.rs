@@ -1,5 +1,4 @@
 use super::*;
-use crate::{EdgeForce, Smoothing};
 use glam::DVec2;
 use ndarray::s;
 use proptest::prelude::*;
@@ -13,6 +12,22 @@ const EDGE: Recipe = Recipe::Edge(EdgeForce {
     smoothing: Smoothing::Binomial(20),
     gain: 6.0,
 });
+
+/// The `f64` pipeline.
+fn slow_force<P: Pixel>(
+    image: ArrayView2<'_, P>,
+    recipe: &Recipe,
+) -> Result<ForceField, FieldError> {
+    let image: Grid = image.mapv(|pixel| f64::from(pixel.level()));
+    match recipe {
+        Recipe::Report {
+            passes,
+            scale,
+            gain,
+        } => report_force(&image, *passes, *scale, *gain),
+        Recipe::Edge(rule) => edge_force(&image, rule),
+    }
+}
 
 /// Pixels without any pattern a filter could profit from.
 fn noise(height: usize, width: usize) -> Array2<u8> {
@@ -82,7 +97,7 @@ fn hard_edges_agree_with_the_slow_twin() {
 #[test]
 fn every_smoothing_agrees_with_the_slow_twin() {
     let image = noise(90, 140);
-    for passes in [0, 1, 2, 5, 40, 150, 600, 3000] {
+    for passes in [0, 1, 2, 5, 40, 150, 600, 800, 3000] {
         let rule = EdgeForce {
             smoothing: Smoothing::Binomial(passes),
             gain: 1.0,
@@ -99,13 +114,36 @@ fn every_smoothing_agrees_with_the_slow_twin() {
             assert!(error < BOUND, "{recipe:?}: {error:e}");
         }
     }
-    for sigma in [0.2, 0.7, 1.5, 4.0, 17.0, 40.0] {
+    for sigma in [0.2, 0.7, 1.5, 4.0, 17.0, 19.0, 40.0, 300.0] {
         let rule = EdgeForce {
             smoothing: Smoothing::Gaussian(sigma),
             gain: 1.0,
         };
         let error = error(&image, Recipe::Edge(rule));
         assert!(error < BOUND, "{sigma}: {error:e}");
+    }
+}
+
+#[test]
+fn pictures_of_every_shape_may_be_smoothed_widely() {
+    for (height, width) in [(1, 1), (1, 70), (70, 1), (3, 3), (3, 2000)] {
+        let rule = EdgeForce {
+            smoothing: Smoothing::Gaussian(25.0),
+            gain: 1.0,
+        };
+        for recipe in [
+            Recipe::Edge(rule),
+            Recipe::Report {
+                passes: 1250,
+                scale: 0.15,
+                gain: 10.0,
+            },
+        ] {
+            let error = error(&noise(height, width), recipe);
+            assert!(error < BOUND, "{height} × {width}, {recipe:?}: {error:e}");
+            let flat = Array2::from_elem((height, width), 0.1_f32);
+            assert!(fast_force(flat.view(), &recipe, 1).unwrap().largest() <= 0.0);
+        }
     }
 }
 
@@ -250,6 +288,29 @@ fn bad_pixels_are_named_by_their_first_position() {
         FastForce::new(recipe, 1),
         Err(FieldError::NotPositive { name: "scale", .. })
     ));
+}
+
+#[test]
+fn a_field_larger_than_any_memory_is_refused_with_the_figure() {
+    // one pixel seen everywhere: the picture takes no memory, its field would take 2^51 bytes
+    let pixel = Array2::from_elem((1, 1), 7_u8);
+    let image = pixel.broadcast((1 << 18, 1 << 30)).unwrap();
+    let refused = fast_force(image, &EDGE, 1).unwrap_err();
+    assert!(matches!(refused, FieldError::NoMemory { bytes, .. } if bytes == 1 << 51));
+    assert!(refused.to_string().contains(&(1_u64 << 51).to_string()));
+}
+
+#[test]
+fn long_and_thin_pictures_agree_with_the_slow_twin() {
+    for (height, width) in [(20_000, 3), (3, 20_000)] {
+        for recipe in [REPORT, EDGE] {
+            let error = error(&noise(height, width), recipe);
+            assert!(error < BOUND, "{height} × {width}, {recipe:?}: {error:e}");
+        }
+    }
+    let image = noise(100_000, 3);
+    let field = fast_force(image.view(), &EDGE, 2).unwrap();
+    assert!(field == fast_force(image.view(), &EDGE, 1).unwrap());
 }
 
 #[test]

@@ -14,7 +14,7 @@ use pulp::{Simd, WithSimd};
 /// Columns and rows of a tile when a whole image is computed.
 ///
 /// Lines of 256 numbers; all buffers of a tile together stay below 400 KiB for the report's smoothing and below
-/// 1.6 MiB for the widest filter.
+/// 0.9 MiB for the widest filter.
 pub(super) const TILE: (usize, usize) = (252, 256);
 
 /// Columns and rows of a tile when only a band is wanted.
@@ -40,10 +40,12 @@ pub(super) struct Scratch {
 impl Scratch {
     fn fit(&mut self, n: usize, height: usize, radius: usize, smoothed: bool) {
         let rows = height + 4 + 2 * radius;
-        // a few numbers more than needed: rows must not lie a power of two apart
-        self.pixels.resize(rows * stride(n, radius), 0.0);
         if smoothed {
-            self.smoothed.resize(rows * n, 0.0);
+            // a line of pixels is smoothed as soon as it is read
+            resize_exactly(&mut self.pixels, stride(n, radius));
+            resize_exactly(&mut self.smoothed, rows * n);
+        } else {
+            resize_exactly(&mut self.pixels, rows * stride(n, radius));
         }
         if self
             .lines
@@ -55,6 +57,14 @@ impl Scratch {
     }
 }
 
+/// A vector of this length and no memory beyond it.
+fn resize_exactly(numbers: &mut Vec<f32>, n: usize) {
+    numbers.truncate(n);
+    numbers.reserve_exact(n - numbers.len());
+    numbers.resize(n, 0.0);
+}
+
+/// A few numbers more than needed: rows must not lie a power of two apart.
 fn stride(n: usize, radius: usize) -> usize {
     n + (2 * radius).next_multiple_of(16) + 16
 }
@@ -98,9 +108,6 @@ impl<P: Pixel> WithSimd for Job<'_, P> {
         );
         let mut largest = 0;
         let columns = Columns::new(x, place.width + 2 * (plan.radius + 2), image.ncols());
-        for (row, line) in (y..).zip(scratch.pixels.chunks_exact_mut(stride)) {
-            largest = largest.max(columns.load(&image, row, line));
-        }
         let mut rows = Rows {
             out,
             stride: out_stride,
@@ -108,6 +115,9 @@ impl<P: Pixel> WithSimd for Job<'_, P> {
         };
         match &plan.kind {
             Kind::Report { odd } => {
+                for (row, line) in (y..).zip(scratch.pixels.chunks_exact_mut(stride)) {
+                    largest = largest.max(columns.load(&image, row, line));
+                }
                 let borders = Borders::new(image.dim(), place, n);
                 report_tile(
                     simd,
@@ -120,15 +130,14 @@ impl<P: Pixel> WithSimd for Job<'_, P> {
                 );
             }
             Kind::Edge { even_x, even_y } => {
-                edge_tile(
-                    simd,
-                    [even_x, even_y],
-                    stride,
-                    n,
-                    place.height,
-                    scratch,
-                    &mut rows,
-                );
+                let Scratch {
+                    pixels, smoothed, ..
+                } = &mut *scratch;
+                for (row, line) in (y..).zip(smoothed.chunks_exact_mut(n)) {
+                    largest = largest.max(columns.load(&image, row, pixels));
+                    filter::<S, false>(simd, pixels, plan.radius, 1, even_x, line);
+                }
+                edge_tile(simd, even_y, n, place.height, scratch, &mut rows);
             }
         }
         largest > plan.largest_pixel.to_bits()
@@ -254,29 +263,20 @@ fn report_tile<S: Simd>(
     }
 }
 
-/// Both components of the corrected force: two even filters, the gradient's length, its gradient.
+/// Both components of the corrected force, from lines smoothed along x: the gradient's length, its gradient.
 #[inline(always)]
 fn edge_tile<S: Simd>(
     simd: S,
-    [even_x, even_y]: [&[f32]; 2],
-    stride: usize,
+    even_y: &[f32],
     n: usize,
     height: usize,
     scratch: &mut Scratch,
     out: &mut Rows<'_>,
 ) {
-    let radius = even_x.len() - 1;
+    let radius = even_y.len() - 1;
     let Scratch {
-        pixels,
-        smoothed,
-        lines,
+        smoothed, lines, ..
     } = scratch;
-    for (row, line) in pixels
-        .chunks_exact(stride)
-        .zip(smoothed.chunks_exact_mut(n))
-    {
-        filter::<S, false>(simd, row, radius, 1, even_x, line);
-    }
     let [s0, s1, s2, p0, p1, p2, down, above, below, gx, gy] = &mut lines[..] else {
         return;
     };
