@@ -134,7 +134,7 @@ fn a_name_that_nothing_has_is_answered_with_the_nearest() {
     folder.refused(&["run", "."], &["directory"]);
     folder.refused(&["run", ""], &["did you mean"]);
     let args = ["run", "s.toml", "--scheme", "newmarc"];
-    folder.refused(&args, &["--scheme", "newmarc", "nearest is `newmark`"]);
+    folder.refused(&args, &["--scheme", "newmarc", "nearest is newmark"]);
 }
 
 #[test]

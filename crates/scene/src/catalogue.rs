@@ -32,6 +32,7 @@ scenes![
     "apple",
     "apple-closed",
     "apple-report",
+    "pile",
 ];
 
 const CONTOURS: [(&str, &str); 5] = [

@@ -153,6 +153,7 @@ impl Fit {
             picture: Some(Arc::new(picture)),
             field: Some(field),
             start: State::at_rest(x),
+            company: None,
             snake,
             plan: Plan {
                 scheme,

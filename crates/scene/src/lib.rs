@@ -20,6 +20,7 @@
 
 mod build;
 mod catalogue;
+mod company;
 mod contour;
 mod error;
 mod file;
@@ -35,11 +36,12 @@ mod toml_error;
 mod write;
 
 pub use catalogue::{APPLE_DISTURBING, SCENES, contour, headline};
+pub use company::Company;
 pub use contour::Contour;
 pub use error::SceneError;
 pub use fit::Fit;
 pub use picture::Picture;
-pub use record::{Frame, Record};
+pub use record::{Curve, Frame, Record};
 pub use scene::{Plan, Recording, Scene, View};
 pub use stages::{stages, write_stages};
 pub use write::{ready_file, ready_folder, write_whole};

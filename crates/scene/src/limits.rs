@@ -5,6 +5,9 @@
 
 /// Nodes a snake may have, and points a contour: more than twenty for every pixel of the outline of
 /// the largest picture.
+/// The most snakes of a scene.
+pub(crate) const MOST_SNAKES: usize = 10_000;
+
 pub(crate) const MOST_NODES: usize = 1 << 20;
 
 /// Coordinates go so far from zero, either way: a thousandth of where a run counts as blown up, and

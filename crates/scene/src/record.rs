@@ -28,6 +28,23 @@ pub struct Frame {
     pub velocities: Option<Vec<DVec2>>,
     /// The energies, if kept.
     pub energies: Option<Energies>,
+    /// Whose nodes `nodes` are: the number of the first snake that is there.
+    pub first: usize,
+    /// The other curves of a crowd.
+    pub others: Vec<Curve>,
+}
+
+/// One of several curves at one moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// The snake's number.
+    pub id: usize,
+    /// Whether it is closed.
+    pub closed: bool,
+    /// The nodes.
+    pub nodes: Vec<DVec2>,
+    /// Their velocities, if kept.
+    pub velocities: Option<Vec<DVec2>>,
 }
 
 impl Frame {
@@ -43,7 +60,22 @@ impl Frame {
             nodes: state.x.clone(),
             velocities: keep.velocities.then(|| state.v.clone()),
             energies: ledger.map(|ledger| ledger.energies(snake, state)),
+            first: 0,
+            others: Vec::new(),
         }
+    }
+}
+
+/// A snake's number, its nodes, and their velocities if kept.
+type Drawn<'a> = (usize, &'a [DVec2], Option<&'a [DVec2]>);
+
+impl Frame {
+    /// Every curve there is.
+    pub fn curves(&self) -> impl Iterator<Item = Drawn<'_>> {
+        let first = (self.first, &self.nodes[..], self.velocities.as_deref());
+        let others = self.others.iter();
+        let others = others.map(|curve| (curve.id, &curve.nodes[..], curve.velocities.as_deref()));
+        std::iter::once(first).chain(others)
     }
 }
 
@@ -64,6 +96,8 @@ pub struct Record {
     pub terms: Vec<String>,
     /// The moments kept: the start, those asked for, the end.
     pub frames: Vec<Frame>,
+    /// What happened to curves on the way, in words.
+    pub events: Vec<String>,
     /// How it ended.
     pub outcome: Outcome,
 }
@@ -89,6 +123,18 @@ struct Line<'a> {
     v: Option<Vec<[f64; 2]>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     energy: Option<EnergyLine<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    others: Vec<CurveLine>,
+}
+
+/// One of the other curves of a crowd.
+#[derive(Serialize)]
+struct CurveLine {
+    id: usize,
+    closed: bool,
+    x: Vec<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    v: Option<Vec<[f64; 2]>>,
 }
 
 /// Energies under their names, and their sum.
@@ -109,13 +155,15 @@ impl Serialize for EnergyLine<'_> {
 }
 
 #[derive(Serialize)]
-struct Footer {
+struct Footer<'a> {
     outcome: &'static str,
     step: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
     node: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     at: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    events: &'a [String],
 }
 
 /// The version of both formats.
@@ -131,6 +179,7 @@ impl Record {
             closed: matches!(scene.snake.body().topology, elastic::Topology::Closed),
             terms: Energies::names(scene.snake.world()),
             frames: Vec::new(),
+            events: Vec::new(),
             outcome: Outcome::Finished { step: 0 },
         }
     }
@@ -176,6 +225,16 @@ impl Record {
                     names: &self.terms,
                     energies,
                 }),
+                others: frame
+                    .others
+                    .iter()
+                    .map(|curve| CurveLine {
+                        id: curve.id,
+                        closed: curve.closed,
+                        x: pairs(&curve.nodes),
+                        v: curve.velocities.as_deref().map(pairs),
+                    })
+                    .collect(),
             }))?;
         }
         let (node, at) = match self.outcome {
@@ -188,6 +247,7 @@ impl Record {
             step: self.outcome.step(),
             node,
             at,
+            events: &self.events,
         }))?;
         Ok(text)
     }
@@ -212,19 +272,25 @@ impl Record {
             }
             text.push_str(",total");
         }
-        text.push('\n');
+        let crowd = self.frames.iter().any(|frame| !frame.others.is_empty());
+        text.push_str(if crowd { ",curve\n" } else { "\n" });
         for frame in &self.frames {
-            for (i, p) in frame.nodes.iter().enumerate() {
-                let _ = write!(text, "{},{:?},{i},{:?},{:?}", frame.step, frame.t, p.x, p.y);
-                if let Some(v) = &frame.velocities {
-                    let _ = write!(text, ",{:?},{:?}", v[i].x, v[i].y);
-                }
-                if let Some(e) = &frame.energies {
-                    for value in e.values().into_iter().chain([e.total()]) {
-                        let _ = write!(text, ",{value:?}");
+            for (id, nodes, velocities) in frame.curves() {
+                for (i, p) in nodes.iter().enumerate() {
+                    let _ = write!(text, "{},{:?},{i},{:?},{:?}", frame.step, frame.t, p.x, p.y);
+                    if let Some(v) = velocities {
+                        let _ = write!(text, ",{:?},{:?}", v[i].x, v[i].y);
                     }
+                    if let Some(e) = &frame.energies {
+                        for value in e.values().into_iter().chain([e.total()]) {
+                            let _ = write!(text, ",{value:?}");
+                        }
+                    }
+                    if crowd {
+                        let _ = write!(text, ",{id}");
+                    }
+                    text.push('\n');
                 }
-                text.push('\n');
             }
         }
         text

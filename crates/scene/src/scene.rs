@@ -9,6 +9,7 @@ use glam::DVec2;
 use integrator::{Scheme, SchemeError, Start, State};
 use snake::{Ledger, Outcome, Snake, Until};
 
+use crate::company::Company;
 use crate::limits::{MOST_KEPT, MOST_SCENE_BYTES, MOST_STEPS};
 use crate::record::{Frame, Record};
 use crate::{Picture, SceneError, build, catalogue, read, toml_error};
@@ -37,13 +38,13 @@ pub struct Recording {
 
 impl Recording {
     /// The same with its steps in order: what [`Recording::keeps`] needs.
-    fn sorted(&self) -> Self {
+    pub(crate) fn sorted(&self) -> Self {
         let mut sorted = self.clone();
         sorted.steps.sort_unstable();
         sorted
     }
 
-    fn keeps(&self, step: u64) -> bool {
+    pub(crate) fn keeps(&self, step: u64) -> bool {
         self.every
             .is_some_and(|every| step.is_multiple_of(every.max(1)))
             || self.steps.binary_search(&step).is_ok()
@@ -97,6 +98,8 @@ pub struct Scene {
     pub field: Option<Arc<ForceField>>,
     /// The snake.
     pub snake: Snake,
+    /// Whom it shares its world with, and how curves are kept in order.
+    pub company: Option<Company>,
     /// Where it starts, and how fast.
     pub start: State,
     /// How to run it.
@@ -195,6 +198,9 @@ impl Scene {
         observer: &mut dyn FnMut(&State) -> ControlFlow<()>,
     ) -> Result<Record, SceneError> {
         self.check()?;
+        if let Some(company) = self.company.clone() {
+            return self.run_company(&company, observer);
+        }
         let plan = self.plan.clone();
         let mut state = self.start.clone();
         let mut stepper = plan

@@ -50,6 +50,16 @@ nodes = 20
 topology = §topology§{ §ends§ head = §end§"free", tail = "free" }
 start = { §shape§ ellipse = { §ellipse§ center = [32.0, 32.0], axes = [9.0, 8.0] } }
 rest = { segment = { §segment§ from = [0.0, 0.0], to = [9.0, 0.0] } }
+[[also]]
+§also§
+velocity = [0.0, 0.0]
+[contact]
+§contact§
+stiffness = 1.0
+stop = 0.5
+[upkeep]
+§upkeep§
+plastic = { §plastic§ yields-at = 0.1, rate = 1.0 }
 [material]
 §material§
 tether = 0.1
@@ -104,7 +114,7 @@ fn known(place: &str) -> Vec<String> {
         "rule" | "up" | "end" | "border" => "\"zzz\" #",
         "topology" => "\"zzz\" #",
         "root" | "view" | "drawn" | "field" | "snake" | "material" | "densities" | "schedule"
-        | "world" | "wall" | "run" | "record" => "zzz = 1",
+        | "world" | "wall" | "run" | "record" | "also" | "contact" | "upkeep" => "zzz = 1",
         "region" | "shape" | "law" => "zzz = 1 } #",
         _ => "zzz = 1,",
     };
@@ -126,7 +136,11 @@ fn known(place: &str) -> Vec<String> {
     list.split(", ").map(str::to_owned).collect()
 }
 
-const PLACES: [&str; 30] = [
+const PLACES: [&str; 34] = [
+    "also",
+    "contact",
+    "upkeep",
+    "plastic",
     "root",
     "rules",
     "rule",

@@ -13,10 +13,11 @@ pub use upkeep::{Event, EventKind, Plastic, Upkeep};
 
 use elastic::Topology;
 use glam::DVec2;
-use integrator::{Fault, Scheme, SchemeError, Start, State, Stepper, System};
+use integrator::{Fault, FaultKind, Scheme, SchemeError, Start, State, Stepper, System};
 use outline::OutlineError;
 
 use crate::rest::{Verdict, Watch};
+use crate::run::FAR;
 use crate::{Energies, Ledger, Rest, Snake, SnakeError};
 use contact::Meetings;
 
@@ -107,6 +108,8 @@ pub struct Timing {
     pub dt: f64,
     /// How a scheme with memory begins.
     pub start: Start,
+    /// Whether a step beyond the limit of a snake is made all the same.
+    pub force: bool,
 }
 
 /// Snakes that share a world and know of each other.
@@ -160,7 +163,11 @@ impl Crowd {
             taken: 0.0,
         };
         upkeep.validate()?;
-        for (snake, state) in snakes {
+        for (member, (snake, state)) in snakes.into_iter().enumerate() {
+            timing
+                .scheme
+                .check(&snake, timing.dt, timing.force)
+                .map_err(|error| CrowdError::Scheme { member, error })?;
             crowd.join(snake, State { t, ..state })?;
         }
         if let Some(contact) = &crowd.contact {
@@ -246,6 +253,14 @@ impl Crowd {
                 .stepper
                 .step(&mut member.snake, &mut member.state)
                 .map_err(fault)?;
+            let somewhere = |x: &DVec2| x.is_finite() && x.abs().max_element() < FAR;
+            if let Some(node) = member.state.x.iter().position(|x| !somewhere(x)) {
+                return Err(fault(Fault {
+                    node,
+                    at: member.state.x[node],
+                    kind: FaultKind::NotFinite,
+                }));
+            }
             member
                 .ledger
                 .book(&mut member.snake, &member.state)

@@ -8,6 +8,9 @@ use integrator::{FaultKind, State, Stepper};
 use crate::Snake;
 use crate::rest::{Rest, Verdict, Watch};
 
+/// A node farther from the origin is nowhere. L.
+pub(crate) const FAR: f64 = 1e12;
+
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Until {
@@ -185,7 +188,7 @@ pub fn run(
                 _ => Outcome::Diverged { step, node },
             };
         }
-        let somewhere = |x: &DVec2| x.is_finite() && x.abs().max_element() < 1e12;
+        let somewhere = |x: &DVec2| x.is_finite() && x.abs().max_element() < FAR;
         if let Some(node) = state.x.iter().position(|x| !somewhere(x)) {
             return Outcome::Diverged {
                 step: state.step,

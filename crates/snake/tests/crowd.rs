@@ -27,6 +27,7 @@ fn timing(scheme: Scheme, dt: f64) -> Timing {
         scheme,
         dt,
         start: Start::SecondOrder,
+        force: false,
     }
 }
 

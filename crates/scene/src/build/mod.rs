@@ -1,6 +1,7 @@
 //! From the text of a scene to the scene: what the words mean, and every refusal by its key.
 
 mod body;
+mod company;
 pub(crate) mod number;
 mod plan;
 mod shape;
@@ -88,6 +89,7 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         .map(Arc::new);
     let world = world::world(text, rules, picture.as_ref(), field.clone(), body.len())?;
     let snake = Snake::new(body, world).map_err(|e| refused("snake", &e))?;
+    let company = company::company(text, rules, picture.as_ref(), &snake, folder)?;
     Ok(Scene {
         name: name.to_owned(),
         title: text.title.clone(),
@@ -97,6 +99,7 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         picture: picture.map(Arc::new),
         field,
         snake,
+        company,
         start,
         plan,
     })

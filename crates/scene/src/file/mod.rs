@@ -3,10 +3,12 @@
 //! Every key that may be left out is an `Option` or has its default here; what the values mean is
 //! decided in `build`. `docs/formats.md` explains the format by example.
 
+mod company;
 mod forms;
 
 use serde::Deserialize;
 
+pub(crate) use company::{AlsoText, ContactText, UpkeepText};
 pub(crate) use forms::{ProfileText, RulesText, TopologyText};
 
 #[derive(Debug, Clone, Deserialize)]
@@ -29,6 +31,12 @@ pub(crate) struct SceneText {
     #[serde(default)]
     pub field: FieldText,
     pub snake: SnakeText,
+    #[serde(default)]
+    pub also: Vec<AlsoText>,
+    #[serde(default)]
+    pub contact: Option<ContactText>,
+    #[serde(default)]
+    pub upkeep: Option<UpkeepText>,
     pub material: MaterialText,
     pub densities: DensitiesText,
     #[serde(default)]

@@ -1,0 +1,141 @@
+//! Further snakes, contact and upkeep.
+
+use std::path::Path;
+
+use snake::{Contact, Plastic, Snake, Upkeep};
+
+use super::{Rules, body, number, refused, world};
+use crate::company::Company;
+use crate::file::{AlsoText, ContactText, SceneText, UpkeepText};
+use crate::limits::MOST_SNAKES;
+use crate::{Picture, SceneError};
+
+/// The company of the scene's snake; None if it is alone and nothing looks after it.
+pub(super) fn company(
+    text: &SceneText,
+    rules: Rules,
+    picture: Option<&Picture>,
+    first: &Snake,
+    folder: &Path,
+) -> Result<Option<Company>, SceneError> {
+    if text.also.is_empty() && text.contact.is_none() && text.upkeep.is_none() {
+        return Ok(None);
+    }
+    let mut others = Vec::new();
+    for (k, also) in text.also.iter().enumerate() {
+        let places = also.at.as_ref().map_or(1, Vec::len);
+        if others.len() + places > MOST_SNAKES {
+            let message = format!("at most {MOST_SNAKES} snakes would do");
+            return Err(SceneError::key(&format!("also {k}: at"), message));
+        }
+        let own = instead(text, also);
+        let within = |error: SceneError| match error {
+            SceneError::Key { key, message } => SceneError::Key {
+                key: format!("also {k}: {key}"),
+                message,
+            },
+            other => other,
+        };
+        let shape = body::body(&own, rules, folder).map_err(within)?;
+        let start = body::start(&own, &shape, rules, folder).map_err(within)?;
+        // the same forces, unless their weights are meant for another number of nodes
+        let same = shape.len() == first.body().len();
+        let surroundings = if same {
+            first.world().clone()
+        } else {
+            world::world(&own, rules, picture, None, shape.len()).map_err(within)?
+        };
+        let snake = Snake::new(shape, surroundings).map_err(|e| within(refused("snake", &e)))?;
+        match &also.at {
+            None => others.push((snake, start)),
+            Some(places) => {
+                let middle = elastic::center(&start.x, None);
+                for (i, &place) in places.iter().enumerate() {
+                    let place = number::place(&format!("also {k}: at[{i}]"), place)?;
+                    let mut moved = start.clone();
+                    for x in &mut moved.x {
+                        *x += place - middle;
+                    }
+                    others.push((snake.clone(), moved));
+                }
+            }
+        }
+    }
+    for (k, (_, start)) in others.iter().enumerate() {
+        if let Some(picture) = picture {
+            world::inside(start, picture, rules).map_err(|error| match error {
+                SceneError::Key { message, .. } => {
+                    SceneError::key("also", format!("snake {}: {message}", k + 1))
+                }
+                other => other,
+            })?;
+        }
+    }
+    Ok(Some(Company {
+        others,
+        contact: text.contact.as_ref().map(contact),
+        upkeep: text
+            .upkeep
+            .as_ref()
+            .map(upkeep)
+            .transpose()?
+            .unwrap_or_default(),
+    }))
+}
+
+/// The text with what a further snake says in place of what the first says.
+fn instead(text: &SceneText, also: &AlsoText) -> SceneText {
+    let mut own = text.clone();
+    own.also.clear();
+    let snake = &mut own.snake;
+    if let Some(start) = &also.start {
+        snake.start = start.clone();
+        snake.rest = None;
+    }
+    if also.rest.is_some() {
+        snake.rest.clone_from(&also.rest);
+    }
+    if also.nodes.is_some() {
+        snake.nodes = also.nodes;
+    }
+    if let Some(topology) = &also.topology {
+        snake.topology = topology.clone();
+    }
+    snake.velocity = also.velocity.unwrap_or(snake.velocity);
+    snake.spin = also.spin.unwrap_or(snake.spin);
+    if let Some(material) = &also.material {
+        own.material = material.clone();
+    }
+    if let Some(densities) = &also.densities {
+        own.densities = densities.clone();
+    }
+    own
+}
+
+fn contact(text: &ContactText) -> Contact {
+    Contact {
+        stiffness: text.stiffness,
+        damping: text.damping,
+        friction: text.friction,
+        gap: text.gap,
+        stop: text.stop,
+        own: text.own,
+    }
+}
+
+fn upkeep(text: &UpkeepText) -> Result<Upkeep, SceneError> {
+    if text.every == 0 {
+        return Err(SceneError::key("upkeep.every", "must be at least 1, got 0"));
+    }
+    Ok(Upkeep {
+        every: text.every,
+        stretch: text.stretch,
+        least_area: text.least_area,
+        merge: text.merge,
+        plastic: text.plastic.as_ref().map(|plastic| Plastic {
+            yields_at: plastic.yields_at,
+            rate: plastic.rate,
+        }),
+        growth: text.growth,
+    })
+}

@@ -1,0 +1,161 @@
+//! Scenes of more than one snake, or of one whose curve is looked after.
+
+use std::ops::ControlFlow;
+
+use integrator::{SchemeError, State};
+use snake::{
+    Contact, Crowd, CrowdError, Energies, Event, EventKind, Outcome, Snake, Timing, Upkeep,
+};
+
+use crate::SceneError;
+use crate::record::{Curve, Frame, Record};
+use crate::scene::Scene;
+
+/// Whom a scene's snake shares its world with, and how curves are kept in order.
+#[derive(Debug, Clone)]
+pub struct Company {
+    /// The further snakes, each where it starts.
+    pub others: Vec<(Snake, State)>,
+    /// What happens where curves meet; None: they pass through each other.
+    pub contact: Option<Contact>,
+    /// How curves are kept in order.
+    pub upkeep: Upkeep,
+}
+
+impl Scene {
+    /// Run the whole crowd from the start; the observer is shown the first snake that is there.
+    pub(crate) fn run_company(
+        &mut self,
+        company: &Company,
+        observer: &mut dyn FnMut(&State) -> ControlFlow<()>,
+    ) -> Result<Record, SceneError> {
+        let plan = self.plan.clone();
+        let timing = Timing {
+            scheme: plan.scheme,
+            dt: plan.dt,
+            start: plan.start_rule,
+            force: plan.force,
+        };
+        let mut snakes = vec![(self.snake.clone(), self.start.clone())];
+        snakes.extend(company.others.iter().cloned());
+        let crowd = Crowd::new(snakes, timing, company.contact, company.upkeep);
+        let mut crowd = crowd.map_err(|error| refused(&error))?;
+        if let Some(rest) = plan.until.rest {
+            crowd.watch(rest);
+        }
+        let keep = plan.recording.sorted();
+        let mut record = Record::of(self);
+        record.terms = Energies::names_with(Crowd::FORCES.into_iter());
+        record
+            .frames
+            .push(frame(&mut crowd, keep.velocities, keep.energies));
+        let mut outcome = None;
+        while outcome.is_none() && crowd.steps() < plan.until.steps {
+            if let Err(error) = crowd.step() {
+                let CrowdError::Fault { fault, .. } = error else {
+                    return Err(refused(&error));
+                };
+                outcome = Some(Outcome::Diverged {
+                    step: crowd.steps(),
+                    node: fault.node,
+                });
+                break;
+            }
+            let step = crowd.steps();
+            if keep.keeps(step) {
+                record
+                    .frames
+                    .push(frame(&mut crowd, keep.velocities, keep.energies));
+            }
+            let Some(first) = crowd.members().first() else {
+                outcome = Some(Outcome::Collapsed { step });
+                break;
+            };
+            if observer(&first.state).is_break() {
+                outcome = Some(Outcome::Stopped { step });
+            } else if plan.until.rest.is_some() && crowd.is_at_rest() {
+                outcome = Some(Outcome::Settled { step });
+            }
+        }
+        let step = crowd.steps();
+        if record.frames.last().is_none_or(|frame| frame.step != step) {
+            record
+                .frames
+                .push(frame(&mut crowd, keep.velocities, keep.energies));
+        }
+        record.events = crowd.events().iter().map(said).collect();
+        record.outcome = outcome.unwrap_or(Outcome::Finished { step });
+        Ok(record)
+    }
+}
+
+/// The moment that a crowd is at.
+fn frame(crowd: &mut Crowd, velocities: bool, energies: bool) -> Frame {
+    let energies = energies.then(|| crowd.energies());
+    let mut curves = crowd.members().iter().map(|member| Curve {
+        id: member.id,
+        closed: member.is_closed(),
+        nodes: member.state.x.clone(),
+        velocities: velocities.then(|| member.state.v.clone()),
+    });
+    let first = curves.next();
+    let others = curves.collect();
+    let (id, nodes, velocities) = first.map_or((0, Vec::new(), None), |curve| {
+        (curve.id, curve.nodes, curve.velocities)
+    });
+    Frame {
+        step: crowd.steps(),
+        t: crowd.t(),
+        nodes,
+        velocities,
+        energies,
+        first: id,
+        others,
+    }
+}
+
+/// What happened to a curve, in words.
+fn said(event: &Event) -> String {
+    let Event { t, member, .. } = event;
+    let what = match event.kind {
+        EventKind::Respaced { from, to } => format!("has {to} nodes instead of {from}"),
+        EventKind::LoopRemoved { area } => format!("lost a loop of area {area:.2}"),
+        EventKind::Split { pieces } => format!("fell into {pieces} pieces"),
+        EventKind::Merged { with } => format!("took snake {with} in"),
+        EventKind::Vanished => "vanished".to_owned(),
+        _ => "changed".to_owned(),
+    };
+    format!("t = {t:.4}: snake {member} {what}")
+}
+
+/// An error of the crowd, under the key it belongs to.
+fn refused(error: &CrowdError) -> SceneError {
+    match error {
+        CrowdError::Scheme {
+            error: SchemeError::AboveLimit { .. } | SchemeError::BadStep { .. },
+            ..
+        } => SceneError::Step(error.to_string()),
+        CrowdError::Scheme { .. } => SceneError::key("run.scheme", error),
+        CrowdError::AboveLimit { .. } => SceneError::key("contact.stiffness", error),
+        CrowdError::Fault { .. } => SceneError::key("snake.start", error),
+        CrowdError::Outline { .. } => SceneError::key("upkeep", error),
+        CrowdError::Snake(snake::SnakeError::BadNumber { name, .. }) => {
+            let key = match *name {
+                "the stiffness of contacts" => "contact.stiffness",
+                "the damping of contacts" => "contact.damping",
+                "the friction of contacts" => "contact.friction",
+                "the gap of contacts" => "contact.gap",
+                "the stop of contacts" => "contact.stop",
+                "the stretch to re-space at" => "upkeep.stretch",
+                "the least area" => "upkeep.least-area",
+                "the depth to merge at" => "upkeep.merge",
+                "the yield strain" => "upkeep.plastic.yields-at",
+                "the rate of flow" => "upkeep.plastic.rate",
+                "the growth" => "upkeep.growth",
+                _ => "upkeep",
+            };
+            SceneError::key(key, error)
+        }
+        _ => SceneError::key("upkeep", error),
+    }
+}
