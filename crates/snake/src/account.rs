@@ -45,9 +45,12 @@ impl Snake {
     /// time a scheme last asked for.
     fn own_energies(&mut self, t: f64, x: &[DVec2], v: &[DVec2]) -> Energies {
         let h = self.body.spacing;
-        let [tether, tension, rigidity, mass, _] = self.body.schedules.at(t);
+        let factors = self.body.schedules.at(t);
+        let [tether, tension, rigidity, mass, _] = factors;
+        let turning = self.turning.as_ref();
+        let rotation = turning.map(|turning| turning.rotation_at(x, factors));
         let mut e = std::mem::take(&mut self.deformation);
-        self.deformation_into(x, &mut e);
+        self.deformation_from(x, rotation, &mut e);
         let body = &self.body;
         let elastic = elastic::elastic_energy(&e, body.topology, &body.material, h);
         let mut energies = Energies {
@@ -92,10 +95,10 @@ impl Snake {
         0.5 * put_in
     }
 
-    /// What damping and the dampers of penalty walls take at `state`, per unit of time and length of
+    /// What damping, internal damping and the dampers of penalty walls take at `state`, per unit of time and length of
     /// curve a node.
     pub(crate) fn loss(&self, state: &State) -> f64 {
-        let (mut loss, damping) = (0.0, self.body.schedules.at(state.t)[4]);
+        let (mut loss, damping) = (self.inner_loss(state), self.body.schedules.at(state.t)[4]);
         for (i, (&x, &v)) in state.x.iter().zip(&state.v).enumerate() {
             loss += damping * self.body.damping.at(i) * v.length_squared();
             for wall in self.world.walls.iter().filter(|wall| wall.is_spring()) {

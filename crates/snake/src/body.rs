@@ -4,7 +4,7 @@ use elastic::{Bound, Material, Profile, SpacingRule, Topology};
 use glam::DVec2;
 
 use crate::error::finite_at_least;
-use crate::{Schedules, SnakeError};
+use crate::{Schedules, SnakeError, Turn};
 
 /// Where the body frame has its origin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,6 +23,8 @@ pub struct Frame {
     /// Whether the force is the energy's gradient, `−Pᵀ K e`, which never pushes the body along,
     /// or `−K e` as the report's program has it, which may (D4, D5).
     pub reaction: bool,
+    /// Whether the rest shape turns with the body.
+    pub turn: Turn,
 }
 
 impl Frame {
@@ -32,15 +34,26 @@ impl Frame {
         Self {
             center: Center::Mean,
             reaction: false,
+            turn: Turn::None,
         }
     }
 
-    /// Center of mass, and the force that is the gradient of the energy.
+    /// Center of mass, and the force that is the gradient of the energy; it does not turn.
     #[must_use]
     pub const fn corrected() -> Self {
         Self {
             center: Center::Mass,
             reaction: true,
+            turn: Turn::None,
+        }
+    }
+
+    /// The corrected frame, turning with the body (report §5.2).
+    #[must_use]
+    pub const fn turning() -> Self {
+        Self {
+            turn: Turn::Fit,
+            ..Self::corrected()
         }
     }
 }
@@ -62,6 +75,9 @@ pub struct Body {
     pub mass: Profile,
     /// γ: damping density. M T⁻¹.
     pub damping: Profile,
+    /// β: internal damping, a time that the stiffness is multiplied by. T. It brakes bending and
+    /// stretching and leaves rigid motion alone ([`elastic::InternalDamping`]).
+    pub internal: f64,
     /// The rules of the body frame.
     pub frame: Frame,
     /// Factors of the five parameters as functions of time.
@@ -89,6 +105,7 @@ impl Body {
             material: Material::uniform(0.0, 0.0, 0.0),
             mass: Profile::Uniform(mass),
             damping: Profile::Uniform(0.0),
+            internal: 0.0,
             frame: Frame::corrected(),
             schedules: Schedules::default(),
         };
@@ -108,6 +125,13 @@ impl Body {
     #[must_use]
     pub fn with_damping(mut self, gamma: f64) -> Self {
         self.damping = Profile::Uniform(gamma);
+        self
+    }
+
+    /// The same body in another frame.
+    #[must_use]
+    pub const fn with_frame(mut self, frame: Frame) -> Self {
+        self.frame = frame;
         self
     }
 
@@ -179,6 +203,7 @@ impl Body {
         self.material.validate(n)?;
         self.mass.validate("mass", n, Bound::AtLeast(0.0))?;
         self.damping.validate("damping", n, Bound::AtLeast(0.0))?;
+        finite_at_least("internal damping", 0.0, "at least 0", self.internal)?;
         finite_at_least("spacing", f64::MIN_POSITIVE, "above 0", self.spacing)?;
         self.weights()?;
         Ok(())

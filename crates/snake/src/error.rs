@@ -1,6 +1,7 @@
 //! What can be wrong with a snake or its world.
 
 use elastic::ElasticError;
+use integrator::SchemeError;
 
 /// A value that no snake can be made of.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -9,6 +10,33 @@ pub enum SnakeError {
     /// The curve or its material.
     #[error(transparent)]
     Elastic(#[from] ElasticError),
+    /// A scheme that cannot move it.
+    #[error(transparent)]
+    Scheme(#[from] SchemeError),
+    /// A name that is none of those known.
+    #[error("there is no {what} {name:?}; known are {known}")]
+    UnknownName {
+        /// What was to be named.
+        what: &'static str,
+        /// What was given.
+        name: String,
+        /// What would do.
+        known: &'static str,
+    },
+    /// Something that a turning frame cannot carry.
+    #[error("a frame that turns by its own equation needs {needed}")]
+    NotInTurningFrame {
+        /// What would do.
+        needed: &'static str,
+    },
+    /// A mode that the body has not.
+    #[error("there is no mode {mode} that resists: the body has {modes} of them")]
+    NoMode {
+        /// What was asked for, counted from 0.
+        mode: usize,
+        /// How many there are.
+        modes: usize,
+    },
     /// A number that must be finite, or at least something, is not.
     #[error("{name} must be finite and {bound}, got {value}")]
     BadNumber {

@@ -32,34 +32,45 @@
 //! It does no I/O and knows no file, no format and no drawing. A run ends with an [`Outcome`];
 //! blowing up is one of them, not an error.
 //!
-//! What it cannot do yet: turn its body frame (report §5.2), push with a pressure (§5.4), re-space
-//! its nodes, or meet another snake.
+//! The body frame turns with the body where [`Turn::Fit`] says so; [`Turning`] is the same as the report's three
+//! equations have it (§5.2). [`Damping`] is chosen by rules (§3.4.2), which [`Settling`] compares.
+//!
+//! What it cannot do yet: push with a pressure (§5.4), re-space its nodes, or meet another snake.
 
 mod account;
 mod body;
 mod certificate;
 mod crowd;
+mod damping;
 mod energy;
 mod error;
 mod force;
+mod inner;
 mod parameters;
 mod rest;
 mod run;
 mod schedule;
+mod settling;
 mod snake;
+mod turn;
+mod turning;
 mod wall;
 mod world;
 
 pub use body::{Body, Center, Frame};
 pub use certificate::{Certificate, ModeOfMotion};
 pub use crowd::{Contact, Crowd, CrowdError, Event, EventKind, Member, Plastic, Timing, Upkeep};
+pub use damping::Damping;
 pub use energy::{Energies, Ledger};
 pub use error::SnakeError;
 pub use force::{Acting, Curve, Force, Gravity, ImageForce, Pull, Sampling};
 pub use rest::Rest;
 pub use run::{Outcome, Until, run};
 pub use schedule::{Schedule, Schedules};
+pub use settling::{Settling, TimeToRest};
 pub use snake::Snake;
+pub use turn::Turn;
+pub use turning::{Term, Turning};
 pub use wall::{Wall, WallLaw};
 pub use world::World;
 

@@ -198,7 +198,7 @@ impl Watch {
             v: vec![DVec2::ZERO; state.len()],
             ..state.clone()
         };
-        snake.elastic(&still.x, &mut self.net);
+        snake.strain_force(&still.x, &mut self.net);
         let mut felt: Vec<f64> = self.net.iter().map(|f| f.length()).collect();
         for index in 0..snake.world().forces.len() {
             self.one.fill(DVec2::ZERO);

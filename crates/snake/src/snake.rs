@@ -6,7 +6,10 @@ use glam::{DMat2, DVec2};
 use integrator::{Fault, State, System, Touch};
 
 use crate::account::Account;
+use crate::damping::Renewal;
+use crate::inner::Inner;
 use crate::parameters::{operator, pushes, scaled};
+use crate::turn::TurningRest;
 use crate::{Acting, Body, Center, Curve, SnakeError, Wall, WallLaw, World};
 
 /// A snake: a [`Body`] in a [`World`], ready to be moved by any scheme of [`integrator`].
@@ -15,7 +18,7 @@ pub struct Snake {
     pub(crate) body: Body,
     pub(crate) world: World,
     /// Weights of the nodes in the frame's origin; they sum to 1.
-    weights: Vec<f64>,
+    pub(crate) weights: Vec<f64>,
     held: Vec<bool>,
     any_held: bool,
     /// Whether `−K e` has a sum, so that the frame's reaction is more than rounding.
@@ -26,10 +29,16 @@ pub struct Snake {
     pub(crate) damping: Vec<f64>,
     pub(crate) factors: [f64; 5],
     stiffness: Operator,
+    /// The rest shape that turns, if it does.
+    pub(crate) turning: Option<TurningRest>,
+    /// The densities of internal damping, and a bound of it for step limits; if there is any.
+    pub(crate) inner: Option<Inner>,
+    /// Damping that is chosen again and again.
+    pub(crate) renewal: Option<Renewal>,
     pub(crate) deformation: Vec<DVec2>,
     pub(crate) account: Option<Account>,
     /// Someone changed the body: the schemes are to be told.
-    changed: bool,
+    pub(crate) changed: bool,
 }
 
 impl Snake {
@@ -48,7 +57,12 @@ impl Snake {
         let (material, mass, damping) = scaled(&body, factors);
         let stiffness = operator(&body, &material, &weights, &held)?;
         let pushes = pushes(&body, &material);
+        let turning = TurningRest::new(&body, &weights, factors);
+        let inner = Inner::new(&body, &material)?;
         Ok(Self {
+            turning,
+            inner,
+            renewal: None,
             any_held: held.contains(&true),
             pushes,
             account: None,
@@ -88,11 +102,45 @@ impl Snake {
         }
     }
 
-    /// Deformation `e = x − c − r` of every node (report Eq. 2.2). Overwrites `e`.
+    /// Deformation `e = x − c − R r` of every node (report Eq. 2.2), along the axes of space; `R` is the
+    /// turn of the rest shape, if it turns. Overwrites `e`.
     pub fn deformation_into(&self, x: &[DVec2], e: &mut [DVec2]) {
+        let rotation = self.turning.as_ref().map(|turning| turning.rotation(x));
+        self.deformation_from(x, rotation, e);
+    }
+
+    /// The deformation from the rest shape turned by that much.
+    pub(crate) fn deformation_from(&self, x: &[DVec2], rotation: Option<DVec2>, e: &mut [DVec2]) {
         let center = self.center(x);
         for ((e, &x), &r) in e.iter_mut().zip(x).zip(&self.body.rest) {
+            let r = rotation.map_or(r, |rotation| rotation.rotate(r));
             *e = x - center - r;
+        }
+    }
+
+    /// θ: how far the rest shape is turned when the nodes are at `x`, between −π and π; 0 in a frame
+    /// that does not turn.
+    #[must_use]
+    pub fn angle(&self, x: &[DVec2]) -> f64 {
+        let rotation = self.turning.as_ref().map(|turning| turning.rotation(x));
+        rotation.map_or(0.0, DVec2::to_angle)
+    }
+
+    /// The whole elastic force on every node, the turned rest shape counted in. Overwrites `force`.
+    ///
+    /// [`System::elastic`] is the part of it that is affine in the positions; what turning changes is
+    /// among the external forces, so that each scheme asks for it where its order needs it.
+    pub fn strain_force(&mut self, x: &[DVec2], force: &mut [DVec2]) {
+        self.elastic(x, force);
+        self.add_turn(x, force);
+        for (f, _) in force.iter_mut().zip(&self.held).filter(|(_, held)| **held) {
+            *f = DVec2::ZERO;
+        }
+    }
+
+    fn add_turn(&self, x: &[DVec2], force: &mut [DVec2]) {
+        if let Some(turning) = &self.turning {
+            turning.add(x, force);
         }
     }
 
@@ -249,7 +297,7 @@ impl System for Snake {
     }
 
     fn advance(&mut self, t: f64) -> bool {
-        let changed = std::mem::take(&mut self.changed);
+        let changed = std::mem::take(&mut self.changed) | self.renew(t);
         if self.body.schedules.is_empty() {
             return changed;
         }
@@ -267,13 +315,15 @@ impl System for Snake {
             self.stiffness = stiffness;
         }
         self.pushes = pushes(&self.body, &material);
+        self.turning = TurningRest::new(&self.body, &self.weights, factors);
+        self.inner = Inner::new(&self.body, &material).unwrap_or_default();
         (self.material, self.mass, self.damping, self.factors) = (material, mass, damping, factors);
         true
     }
 
     fn elastic(&mut self, x: &[DVec2], force: &mut [DVec2]) {
         let mut e = std::mem::take(&mut self.deformation);
-        self.deformation_into(x, &mut e);
+        self.deformation_from(x, None, &mut e);
         elastic::elastic_force(
             &e,
             self.body.topology,
@@ -313,6 +363,11 @@ impl System for Snake {
                 *f += wall.force(p, v);
             }
         }
+        self.add_turn(x, force);
+        self.add_inner(x, v, force);
+        if let Some(renewal) = &mut self.renewal {
+            renewal.see(x);
+        }
         Ok(())
     }
 
@@ -350,7 +405,9 @@ impl System for Snake {
     }
 
     fn contact_stiffness(&self) -> (f64, f64) {
-        self.world.contact_stiffness()
+        let (stiffness, damping) = self.world.contact_stiffness();
+        let inner = self.inner.as_ref().map_or(0.0, Inner::bound);
+        (stiffness, damping + inner)
     }
 
     fn external_slope(&mut self, t: f64, x: &[DVec2], slope: &mut [DMat2]) -> bool {

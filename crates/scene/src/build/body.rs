@@ -5,7 +5,7 @@ use std::path::Path;
 use elastic::{Material, Profile, SpacingRule};
 use glam::DVec2;
 use integrator::State;
-use snake::{Body, Center, Frame, Schedule, Schedules};
+use snake::{Body, Frame, Schedule, Schedules};
 
 use super::shape::{self, nodes, topology};
 use super::{Rules, number, refused};
@@ -135,10 +135,7 @@ pub(super) fn body(text: &SceneText, rules: Rules, folder: &Path) -> Result<Body
     };
     let spacing = elastic::spacing(&rest, topology.is_closed(), rule);
     let frame = match rules.frame {
-        Rule::Report => Frame {
-            center: Center::Mean,
-            reaction: false,
-        },
+        Rule::Report => Frame::report(),
         Rule::Corrected => Frame::corrected(),
     };
     let mut body = Body {
@@ -148,6 +145,7 @@ pub(super) fn body(text: &SceneText, rules: Rules, folder: &Path) -> Result<Body
         material: material(text, n)?,
         mass: profile("densities.mass", &text.densities.mass, n)?,
         damping: profile("densities.damping", &text.densities.damping, n)?,
+        internal: 0.0,
         frame,
         schedules: schedules(text)?,
     };
