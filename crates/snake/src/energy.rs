@@ -95,6 +95,8 @@ pub struct Ledger {
     /// Forces without a potential, by their place in the world.
     bookings: Vec<Booking>,
     damping: f64,
+    /// What damping took per unit of time at the last state, under the damping there was then.
+    rate: f64,
     contact: f64,
     parameters: f64,
     middle: State,
@@ -142,6 +144,7 @@ impl Ledger {
             before: state.clone(),
             bookings,
             damping: 0.0,
+            rate: snake.loss(state),
             contact: 0.0,
             parameters: 0.0,
             middle: state.clone(),
@@ -163,12 +166,13 @@ impl Ledger {
         self.parameters -= snake.take_put_in(&self.before, state);
         self.halfway(state, dt);
         let loss = |state: &State| snake.loss(state);
-        let (before, after) = (loss(&self.before), loss(state));
+        let (before, after) = (self.rate, loss(state));
         self.damping += h * if smooth {
             dt / 6.0 * (before + 4.0 * loss(&self.middle) + after)
         } else {
             dt / 2.0 * (before + after)
         };
+        self.rate = after;
         for booking in &mut self.bookings {
             self.force.fill(DVec2::ZERO);
             snake.force_of(booking.index, state, &mut self.force)?;
