@@ -11,8 +11,8 @@ use field::{EdgeForce, ForceField, Grid, Smoothing, edge_force};
 use glam::DVec2;
 use integrator::{Scheme, Start, State, System};
 use snake::{
-    Body, Certificate, Damping, Frame, Ledger, Rest, Sampling, Settling, Snake, SnakeError,
-    TimeToRest, Until, World,
+    Body, Certificate, Damping, Frame, Ledger, Rest, Sampling, Settling, Snake, SnakeError, Until,
+    World,
 };
 use {banded as _, proptest as _, thiserror as _};
 
@@ -62,11 +62,6 @@ fn fit() -> Settling {
     }
 }
 
-fn show(what: &str, best: &TimeToRest, rows: &[TimeToRest]) {
-    println!("{what}\n  best {best}");
-    rows.iter().for_each(|row| println!("  {row}"));
-}
-
 #[test]
 fn a_rule_critical_for_the_slowest_mode_rests_as_soon_as_the_best_constant_found() {
     let ball = ball();
@@ -81,7 +76,6 @@ fn a_rule_critical_for_the_slowest_mode_rests_as_soon_as_the_best_constant_found
             vec![Damping::InternalMode(4)],
         ])
         .unwrap();
-    show("ball", &best, &rows);
     let rest = |i: usize| rows[i].time_to_rest();
     // rest is looked for at moments a fifth apart
     assert!(rest(1) < 1.5 * best.time, "{} {}", rest(1), best.time);
@@ -102,7 +96,6 @@ fn on_a_picture_the_rules_come_to_rest_on_the_same_outline() {
             vec![Damping::Mode(0), Damping::InternalMode(3)],
         ])
         .unwrap();
-    show("ellipse", &best, &rows);
     assert!(best.is_at_rest());
     for row in &rows {
         assert!(row.is_at_rest(), "{row}");
@@ -218,7 +211,6 @@ fn the_ledger_closes_under_damping_that_is_chosen_again() {
     };
     for rule in [Damping::Local, Damping::Renewed(0.5)] {
         let (coarse, fine) = (gap(rule, 0.02), gap(rule, 0.01));
-        println!("{rule}: open by {coarse:.1e} -> {fine:.1e} of what damping took");
         assert!(
             fine < 1e-3 && fine < 0.7 * coarse,
             "{rule}: {coarse} {fine}"
@@ -266,10 +258,6 @@ fn internal_damping_leaves_flight_and_spin_alone_and_is_booked_as_damping() {
     let energies = ledger.energies(&mut snake, &state);
     assert!(energies.damping > 0.0);
     let gap = (energies.total() - total) / energies.damping;
-    println!(
-        "internal damping took {:.4}, the ledger is open by {gap:.1e} of it",
-        energies.damping
-    );
     assert!(gap.abs() < 1e-3, "{gap}");
 }
 

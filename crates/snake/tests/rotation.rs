@@ -180,10 +180,6 @@ fn a_free_spinning_snake_keeps_energy_and_angular_momentum_to_the_order_of_its_s
     ] {
         let (coarse, fine) = (drift(scheme, 800), drift(scheme, 1600));
         let name = scheme.name();
-        println!(
-            "{name:<12} energy {:.2e} -> {:.2e}, angular momentum {:.2e} -> {:.2e}",
-            coarse.0, fine.0, coarse.1, fine.1
-        );
         assert!(fine.0 < most && fine.1 < most, "{name}: {fine:?}");
         let found = (coarse.0 / fine.0).log2();
         // the largest gap need not fall at the same time in both runs
@@ -242,10 +238,6 @@ fn the_equations_of_the_turning_frame_give_the_motion_of_the_best_fit() {
         (farthest(&space.x, &state.x), angle.abs(), space)
     };
     let (coarse, fine) = (run(400), run(800));
-    println!(
-        "apart {:.2e} -> {:.2e}, angle {:.2e} -> {:.2e}",
-        coarse.0, fine.0, coarse.1, fine.1
-    );
     assert!(fine.0 < 1e-5 && fine.1 < 1e-6);
     assert!((coarse.0 / fine.0).log2() > 3.6);
     // the fit by mass of the same curve is near, not the same: the curve is deformed by a tenth
@@ -277,7 +269,6 @@ fn the_turning_frame_keeps_its_order_under_every_scheme_with_mass() {
     ] {
         let error = |steps| farthest(&end(scheme, steps).x, &truth.x);
         let (coarse, fine) = (error(200), error(400));
-        println!("{:<16} {coarse:.2e} -> {fine:.2e}", scheme.name());
         let found = (coarse / fine).log2();
         assert!(found > order - 0.3, "{}: {found}", scheme.name());
     }
@@ -325,7 +316,6 @@ fn the_second_equation_holds_as_it_stands() {
         ((spin(&state) + lost - begin) / begin).abs()
     };
     let (coarse, fine) = (left(400), left(800));
-    println!("left of the second equation {coarse:.2e} -> {fine:.2e}");
     assert!(fine < 1e-7, "{fine}");
     assert!((coarse / fine).log2() > 3.6, "{coarse} {fine}");
 }
@@ -593,10 +583,7 @@ fn on_an_image_that_turns_the_turning_frame_stays_undeformed_and_the_other_does_
     };
     let (small, angle, state) = follow(Frame::turning(), 0.25 * TAU);
     let (still, _, _) = follow(Frame::turning(), 0.0);
-    let (large, _, other) = follow(Frame::corrected(), 0.25 * TAU);
-    println!(
-        "rms deformation: turning {small:.3}, on a still image {still:.3}, translating {large:.3}; angle {angle:.4}"
-    );
+    let (large, ..) = follow(Frame::corrected(), 0.25 * TAU);
     // a blurred edge lies a little inside its ellipse, and that much it is deformed on a still image too;
     // pixels are not the same in all directions
     assert!((small - still).abs() < 0.05 * still, "{small} {still}");
@@ -607,11 +594,6 @@ fn on_an_image_that_turns_the_turning_frame_stays_undeformed_and_the_other_does_
         let level = |x: &DVec2| ((*x - 49.5) / DVec2::new(18.0, 30.0)).length() - 1.0;
         state.x.iter().map(|x| level(x).abs()).fold(0.0, f64::max)
     };
-    println!(
-        "off the outline: turning {:.4}, translating {:.4}",
-        ellipse(&state),
-        ellipse(&other)
-    );
     assert!(ellipse(&state) < 0.05);
 }
 
