@@ -14,7 +14,7 @@ use snake::{
     Body, Certificate, Damping, Frame, Ledger, Rest, Sampling, Settling, Snake, SnakeError, Until,
     World,
 };
-use {banded as _, proptest as _, thiserror as _};
+use {banded as _, outline as _, proptest as _, thiserror as _};
 
 /// The hard ball of chapter 2, let go squeezed: forty nodes, and a shape of 1.5 by 1.
 fn ball() -> Settling {

@@ -16,7 +16,7 @@ use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use snake::{Body, Frame, Ledger, Sampling, Snake, Term, Turn, Until, World, run};
 use spin::{N, body, farthest, go, spinning};
-use {banded as _, proptest as _, thiserror as _};
+use {banded as _, outline as _, proptest as _, thiserror as _};
 
 fn turned(state: &State, by: DVec2) -> State {
     State {

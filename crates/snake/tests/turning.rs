@@ -13,7 +13,7 @@ use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use snake::{Body, Frame, Snake, SnakeError, Term, Turning, World};
 use spin::{N, body, farthest, go, spinning};
-use {banded as _, field as _, proptest as _, thiserror as _};
+use {banded as _, field as _, outline as _, proptest as _, thiserror as _};
 
 #[test]
 fn the_equations_of_the_turning_frame_give_the_motion_of_the_best_fit() {
