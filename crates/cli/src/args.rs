@@ -19,11 +19,11 @@ pub(crate) struct Args {
 pub(crate) enum Command {
     /// Run a scene: a shipped one by name (see `list`), or a TOML file.
     Run(Run),
-    /// Write every stage from a picture to its force field as pictures.
+    /// Write every stage from a picture to its force field, or every kind of field, as pictures and numbers.
     Field(Field),
     /// Pull a drawn contour onto the edges of a picture.
     Fit(Fit),
-    /// List the shipped scenes, or the schemes.
+    /// List the shipped scenes, the schemes, or the kinds of force.
     List(List),
 }
 
@@ -43,6 +43,9 @@ pub(crate) struct Run {
     /// Run although the step is beyond the limit of stability.
     #[arg(long)]
     pub force: bool,
+    /// Say first what is known of the motion: frequencies, largest steps, time to rest.
+    #[arg(long)]
+    pub certificate: bool,
     /// Write the moments kept: CSV if the name ends in .csv, else JSON Lines; `-` is standard output.
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
@@ -81,6 +84,13 @@ pub(crate) struct Field {
     /// Smooth by so many passes of [1/4 1/2 1/4]; the report takes 20, a width of 3.16 pixels.
     #[arg(long, value_name = "N")]
     pub passes: Option<u32>,
+    /// Only the field of this kind (see `list forces`); may be given again. With keys of its own as
+    /// `{ kind = "edge", sigma = 2.0 }`.
+    #[arg(long, value_name = "KIND")]
+    pub kind: Vec<String>,
+    /// The stages, and the field of every kind.
+    #[arg(long, conflicts_with = "kind")]
+    pub all: bool,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -118,10 +128,14 @@ pub(crate) struct Fit {
     /// How strongly the motion is damped.
     #[arg(long, value_name = "G", allow_negative_numbers = true, default_value_t = scene::Fit::default().damping)]
     pub damping: f64,
-    /// Width of the Gaussian that smooths the picture, pixels; the reach is about three times that.
+    /// A force to pull with (see `list forces`) instead of the edge force; may be given again. With a
+    /// weight as `gvf:0.5`, with keys of its own as `{ kind = "edge", sigma = 2.0 }`.
+    #[arg(long, value_name = "KIND")]
+    pub force: Vec<String>,
+    /// Width of the Gaussian that smooths the picture for the edge force, pixels; the reach is about three times that.
     #[arg(long, value_name = "PX", allow_negative_numbers = true, default_value_t = scene::Fit::default().sigma)]
     pub sigma: f64,
-    /// How hard the picture pulls; 1 suits most.
+    /// How hard the edge force pulls; 1 suits most.
     #[arg(long, value_name = "S", allow_negative_numbers = true, default_value_t = scene::Fit::default().strength)]
     pub strength: f64,
     /// The step; half of the largest stable one if not given, and at most 0.2.
@@ -145,4 +159,6 @@ pub(crate) enum What {
     Scenes,
     /// Schemes that move a snake.
     Schemes,
+    /// Kinds of force that act on it.
+    Forces,
 }

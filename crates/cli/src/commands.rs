@@ -8,8 +8,8 @@ use std::process::ExitCode;
 use indicatif::{ProgressBar, ProgressStyle};
 use scene::field::Smoothing;
 use scene::integrator::Scheme;
-use scene::snake::Outcome;
-use scene::{Contour, Picture, Record, Scene, SceneError};
+use scene::snake::{Certificate, Outcome};
+use scene::{Contour, Fields, ForceChoice, Picture, Record, Scene, SceneError};
 
 use crate::args;
 use crate::output::{Output, put, say};
@@ -48,6 +48,13 @@ pub(crate) fn run(args: &args::Run) -> Answer {
         ("run.scheme", "--scheme", args.scheme.is_some()),
         ("record.every", "--every", args.every.is_some()),
     ];
+    if args.certificate {
+        scene.check().map_err(|error| by_flag(error, &flags))?;
+        let certificate = Certificate::of(&scene.snake, Some(&scene.start));
+        for line in certificate.to_string().lines() {
+            say(line);
+        }
+    }
     go(&mut scene, &output, &flags)
 }
 
@@ -65,6 +72,7 @@ pub(crate) fn fit(args: &args::Fit) -> Answer {
         damping: args.damping,
         sigma: args.sigma,
         strength: args.strength,
+        forces: choices("--force", &args.force)?,
         dt: args.dt,
         steps: args.steps,
     };
@@ -88,13 +96,28 @@ pub(crate) fn field(args: &args::Field) -> Answer {
         (None, Some(passes)) => Smoothing::Binomial(passes),
         (None, None) => Smoothing::Binomial(scene::field::REPORT_PASSES),
     };
+    let mut kinds = choices("--kind", &args.kind)?;
+    if args.all {
+        kinds = Fields::every_kind();
+    }
+    let fields = Fields {
+        stages: args.all || args.kind.is_empty(),
+        smoothing,
+        kinds,
+    };
     let mut text = String::new();
-    for file in scene::write_stages(&picture, smoothing, &args.out)? {
+    for file in fields.write(&picture, &args.out)? {
         // writing to a String cannot fail
         let _ = writeln!(text, "{}", file.display());
     }
     put(&text)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Kinds of force as typed behind a flag.
+fn choices(flag: &str, typed: &[String]) -> Result<Vec<ForceChoice>, SceneError> {
+    let read = |text: &String| ForceChoice::parse(text).map_err(|message| key(flag, message));
+    typed.iter().map(read).collect()
 }
 
 pub(crate) fn list(args: &args::List) -> Answer {
@@ -110,6 +133,12 @@ pub(crate) fn list(args: &args::List) -> Answer {
         args::What::Schemes => {
             for scheme in Scheme::ALL {
                 let _ = writeln!(text, "{:18} {}", scheme.name(), scheme.summary());
+            }
+        }
+        args::What::Forces => {
+            for kind in scene::FORCES {
+                let _ = writeln!(text, "{:18} {}", kind.name, kind.summary);
+                let _ = writeln!(text, "{:18} energy: {}", "", kind.energy);
             }
         }
     }
@@ -136,6 +165,9 @@ type Flags<'a> = [(&'a str, &'a str, bool)];
 fn go(scene: &mut Scene, output: &Output, flags: &Flags<'_>) -> Answer {
     scene.check().map_err(|error| by_flag(error, flags))?;
     output.check(scene.picture.as_deref())?;
+    for note in &scene.notes {
+        say(&format!("note: {note}"));
+    }
     let record = watched(scene).map_err(|error| by_flag(error, flags))?;
     output.write(scene, &record)?;
     let (title, outcome) = (&scene.title, record.outcome);

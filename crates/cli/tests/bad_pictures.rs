@@ -68,16 +68,26 @@ fn a_text_named_png_and_a_picture_of_another_format_are_refused() {
 }
 
 #[test]
-fn a_picture_too_small_for_the_masks_is_refused() {
-    for (width, height) in [(1, 1), (1, 40), (40, 1), (2, 40)] {
+fn a_picture_of_one_pixel_or_one_row_is_one_without_a_force() {
+    for (width, height) in [(1, 1), (1, 40), (40, 1), (2, 40), (3, 3)] {
+        let folder = Folder::new();
         let mut bytes = format!("P5 {width} {height} 255\n").into_bytes();
         bytes.extend(vec![7; width * height]);
-        picture(
-            "a.pgm",
-            &bytes,
-            &[&format!("{width}×{height}"), "at least 3×3"],
-        );
+        folder.write("a.pgm", &bytes);
+        let answer = folder.snake(&["field", "a.pgm", "--out", "out", "--all"]);
+        assert_eq!(answer.code, Some(0), "{width}×{height}: {answer:?}");
+        let corner = format!("0,0\n{0},0\n{0},{1}\n0,{1}\n", width - 1, height - 1);
+        folder.write("c.csv", corner);
+        let answer = folder.snake(&["fit", "a.pgm", "--from", "c.csv", "--out", "o.csv"]);
+        if (width, height) == (3, 3) {
+            assert!(answer.err.contains("note: the picture is the same everywhere"));
+        } else {
+            // no curve has room in it, and that is said
+            assert_eq!(answer.code, Some(2), "{width}×{height}: {answer:?}");
+            assert_eq!(answer.err.lines().count(), 1, "{answer:?}");
+        }
     }
+    picture("a.pgm", b"P5 0 9 255\n", &["would do"]);
 }
 
 #[test]

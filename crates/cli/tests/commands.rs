@@ -241,17 +241,121 @@ fn the_stages_of_a_field_are_written_and_named() {
         "{answer:?}"
     );
     let files: Vec<&str> = answer.out.lines().collect();
-    assert_eq!(files.len(), 13);
-    for (i, file) in files.iter().enumerate() {
-        assert!(
-            file.starts_with(&format!("a/b/{}-", i.min(5).max(if i > 8 { 6 } else { 0 }))),
-            "{file}"
-        );
+    let names = [
+        "0-picture.png",
+        "1-smoothed.png",
+        "2-gradient-x.png",
+        "3-gradient-y.png",
+        "4-edge-strength.png",
+        "5-force-x.png",
+        "5-force-y.png",
+        "5-force-directions.png",
+        "5-force-arrows.png",
+        "5-force-magnitude.png",
+        "5-force-potential.png",
+        "5-force-potential.npy",
+        "5-force.npy",
+        "5-force.tiff",
+        "6-report-force-x.png",
+        "6-report-force-y.png",
+        "6-report-force-directions.png",
+        "6-report-force-arrows.png",
+        "6-report-force-magnitude.png",
+        "6-report-force.npy",
+        "6-report-force.tiff",
+        "index.html",
+    ];
+    let named: Vec<String> = names.iter().map(|name| format!("a/b/{name}")).collect();
+    assert_eq!(files, named);
+    for file in files.iter().filter(|file| file.ends_with(".png")) {
         let picture = scene::Picture::load(&folder.path(file)).unwrap();
         let (width, height) = picture.size();
         assert!(width == height && width >= 40, "{file}");
     }
-    assert_eq!(std::fs::read_dir(folder.path("a/b")).unwrap().count(), 13);
+    assert_eq!(
+        std::fs::read_dir(folder.path("a/b")).unwrap().count(),
+        files.len()
+    );
+    let page = std::fs::read_to_string(folder.path("a/b/index.html")).unwrap();
+    assert_eq!(page.matches("data:image/png;base64,").count(), 16);
+}
+
+/// The numbers of an NPY file of float64, and its shape as written.
+fn numbers(bytes: &[u8]) -> (String, Vec<f64>) {
+    let length = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    let head = std::str::from_utf8(&bytes[10..length]).unwrap();
+    let shape = head.split_once("'shape': ").unwrap().1;
+    let shape = shape.split_once(')').unwrap().0.to_owned();
+    let (words, _) = bytes[length..].as_chunks::<8>();
+    (shape, words.iter().map(|w| f64::from_le_bytes(*w)).collect())
+}
+
+#[test]
+fn the_numbers_of_a_field_are_those_of_the_force() {
+    let folder = Folder::new();
+    folder.write("disc.pgm", disc(40, [20.0, 20.0], 9.0));
+    let sigma = "{ kind = \"edge\", sigma = 2.0 }";
+    let kinds = ["--kind", "edge", "--kind", sigma, "--kind", "gvf"];
+    let answer = folder.snake(&[&["field", "disc.pgm", "--out", "out"], &kinds[..]].concat());
+    assert_eq!((answer.code, answer.err.as_str()), (Some(0), ""));
+    for name in ["edge.npy", "edge-2.npy", "gvf.npy", "gvf.tiff"] {
+        assert!(folder.path(&format!("out/{name}")).exists(), "{name}");
+    }
+    let (shape, force) = numbers(&std::fs::read(folder.path("out/edge.npy")).unwrap());
+    assert_eq!((shape.as_str(), force.len()), ("(2, 40, 40", 2 * 40 * 40));
+    let (_, energy) = numbers(&std::fs::read(folder.path("out/edge-potential.npy")).unwrap());
+    // left of the disc to the right, and as the energy falls there; above it down
+    let at = |c: usize, x: usize, y: usize| force[c * 1600 + y * 40 + x];
+    assert!(at(0, 8, 20) > 1.0 && at(0, 32, 20) < -1.0 && at(1, 20, 8) > 1.0);
+    assert!(energy[20 * 40 + 8] > energy[20 * 40 + 9]);
+    // far from the edge, only one of them is felt
+    let (_, flow) = numbers(&std::fs::read(folder.path("out/gvf.npy")).unwrap());
+    assert!(flow[1600 / 2] > 1.0 && at(0, 0, 20).abs() < 0.1);
+}
+
+#[test]
+fn kinds_of_force_are_listed_refused_and_fitted_with() {
+    let folder = Folder::new();
+    let listed = folder.snake(&["list", "forces"]);
+    assert_eq!((listed.code, listed.err.as_str()), (Some(0), ""));
+    for kind in scene::FORCES {
+        assert!(listed.out.contains(&format!("{} ", kind.name)), "{}", kind.name);
+        assert!(listed.out.contains(&format!("energy: {}", kind.energy)));
+    }
+    let widest = listed.out.lines().map(|line| line.chars().count()).max();
+    assert!(widest <= Some(100), "{widest:?}");
+    let center = [48.0, 48.0];
+    folder.write("disc.pgm", disc(96, center, 25.0));
+    folder.write("c.csv", circle(center, 40.0, 12, 1.0));
+    let field = ["field", "disc.pgm", "--out", "out", "--kind"];
+    folder.refused(&[&field[..], &["gvff"]].concat(), &["--kind", "\"gvf\""]);
+    let gravity = "{ kind = \"gravity\", acceleration = [0, 1] }";
+    folder.refused(&[&field[..], &[gravity]].concat(), &["--kind", "no field"]);
+    let fit = ["fit", "disc.pgm", "--from", "c.csv", "--force"];
+    folder.refused(&[&fit[..], &["edg"]].concat(), &["--force", "\"edge\""]);
+    let wide = "{ kind = \"edge\", sigma = -1 }";
+    folder.refused(&[&fit[..], &[wide]].concat(), &["--force edge: sigma"]);
+    // the edge force does not reach fifteen pixels, these do
+    let reached = |args: &[&str]| {
+        let answer = folder.snake(&[&["fit", "disc.pgm", "--from", "c.csv"], args].concat());
+        off(&Contour::parse(&answer.out).unwrap(), center, 25.0)
+    };
+    assert!(reached(&[]) > 10.0);
+    for kind in ["gvf", "vfc", "distance"] {
+        let off = reached(&["--force", "edge", "--force", &format!("{kind}:0.5")]);
+        assert!(off < 1.0, "{kind}: {off} pixels off");
+    }
+}
+
+#[test]
+fn a_certificate_is_said_before_the_run() {
+    let folder = Folder::new();
+    let answer = folder.snake(&["run", "soft-ball", "--steps", "3", "--certificate"]);
+    assert_eq!((answer.code, answer.out.as_str()), (Some(0), ""));
+    let lines: Vec<&str> = answer.err.lines().collect();
+    assert_eq!(lines[0], "highest frequencies, 1/T");
+    let leapfrog = lines.iter().position(|l| l.trim().starts_with("leapfrog "));
+    assert!(leapfrog.is_some() && lines.last().unwrap().starts_with("A soft ball: finished"));
 }
 
 #[test]
@@ -274,7 +378,7 @@ fn help_reads_well_and_names_every_flag() {
         ),
         (
             "field",
-            &["--out", "--sigma", "--passes", "PNG, JPEG, TIFF"],
+            &["--out", "--sigma", "--passes", "--kind", "--all", "PNG, JPEG, TIFF"],
         ),
         (
             "fit",
@@ -290,7 +394,7 @@ fn help_reads_well_and_names_every_flag() {
                 "first pixel's center",
             ],
         ),
-        ("list", &["scenes", "schemes"]),
+        ("list", &["scenes", "schemes", "forces"]),
     ] {
         let answer = folder.snake(&["help", command]);
         assert_eq!((answer.code, answer.err.as_str()), (Some(0), ""));

@@ -3,15 +3,17 @@
 use std::sync::Arc;
 
 use elastic::{ElasticError, Material, Parameter, Topology};
-use field::{EdgeForce, Smoothing};
+use field::{EdgeForce, FieldError, ForceField, Smoothing};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use snake::{Body, Rest, Sampling, Snake, SnakeError, Until, Wall, WallLaw, World};
 
+use crate::build::force::{self, Sight};
 use crate::build::{outside, smoothing};
+use crate::file::ForceText;
 use crate::limits::MOST_NODES;
 use crate::scene::{Plan, Recording, Scene, View};
-use crate::{Contour, Picture, SceneError};
+use crate::{Contour, ForceChoice, Picture, SceneError};
 
 /// How to fit a contour to a picture. [`Fit::default`] suits outlines of some tens to thousands of
 /// pixels drawn within about ten pixels of an edge.
@@ -34,6 +36,8 @@ pub struct Fit {
     /// Force of an edge as high as the picture's own contrast, relative to that of an edge of 120
     /// grey levels under the report's rules.
     pub strength: f64,
+    /// Forces to pull with instead of that edge force; none for it alone.
+    pub forces: Vec<ForceChoice>,
     /// The step; by default half of the largest stable one.
     pub dt: Option<f64>,
     /// Steps at most.
@@ -51,6 +55,7 @@ impl Default for Fit {
             damping: 2.0,
             sigma: 10.0_f64.sqrt(),
             strength: 1.0,
+            forces: Vec::new(),
             dt: None,
             steps: 20_000,
         }
@@ -105,15 +110,8 @@ impl Fit {
             let message = format!("must be finite and above 0, got {}", self.strength);
             return Err(SceneError::key("--strength", message));
         }
-        let gain =
-            self.strength * EdgeForce::as_strong_as_the_report().gain * 120.0 / contrast(&picture);
-        let rule = EdgeForce {
-            smoothing: smoothing("--sigma", Smoothing::Gaussian(self.sigma), &picture)?,
-            gain,
-        };
-        let field =
-            field::edge_force(&picture.levels, &rule).map_err(|e| SceneError::key("--sigma", e))?;
-        let field = Arc::new(field);
+        let sight = Sight::of(&picture)?;
+        let notes = sight.note().into_iter().collect();
         let topology = if closed {
             Topology::Closed
         } else {
@@ -127,7 +125,7 @@ impl Fit {
             .map_err(unfit)?
             .with_material(Material::uniform(self.tether, self.tension, self.rigidity))
             .with_damping(self.damping);
-        let mut world = World::default().with_image(Arc::clone(&field), Sampling::Bilinear);
+        let (mut world, field) = self.world(&sight, nodes)?;
         let law = WallLaw::Impact {
             restitution: 0.0,
             friction: 0.0,
@@ -151,7 +149,7 @@ impl Fit {
             note: None,
             view: View::default(),
             picture: Some(Arc::new(picture)),
-            field: Some(field),
+            field,
             start: State::at_rest(x),
             company: None,
             snake,
@@ -163,7 +161,34 @@ impl Fit {
                 force: false,
                 recording: Recording::default(),
             },
+            notes,
         })
+    }
+
+    /// The forces of the picture, and the field of the usual one.
+    fn world(
+        &self,
+        sight: &Sight<'_>,
+        nodes: usize,
+    ) -> Result<(World, Option<Arc<ForceField>>), SceneError> {
+        if !self.forces.is_empty() {
+            let keyed =
+                |choice: &ForceChoice| (format!("--force {}", choice.kind()), choice.0.clone());
+            let keyed: Vec<(String, ForceText)> = self.forces.iter().map(keyed).collect();
+            let world = force::add(World::default(), &keyed, Some(sight), nodes)?;
+            return Ok((world, None));
+        }
+        let picture = sight.picture;
+        let usual = EdgeForce::as_strong_as_the_report().gain;
+        let rule = EdgeForce {
+            smoothing: smoothing("--sigma", Smoothing::Gaussian(self.sigma), picture)?,
+            gain: self.strength * usual * 120.0 / sight.contrast(),
+        };
+        let refuse = |e: FieldError| SceneError::key("--sigma", e);
+        let masked = picture.masked(&picture.levels).map_err(refuse)?;
+        let field = Arc::new(masked.edge_force(&rule).map_err(refuse)?);
+        let world = World::default().with_image(Arc::clone(&field), Sampling::Bilinear);
+        Ok((world, Some(field)))
     }
 }
 
@@ -185,15 +210,4 @@ fn curve(error: &ElasticError) -> SceneError {
 )]
 fn nodes_for(along: f64) -> usize {
     (along / 4.0).clamp(16.0, 4000.0).round() as usize
-}
-
-/// Spread of the grey levels from the 2nd to the 98th percentile; 1 at least.
-fn contrast(picture: &Picture) -> f64 {
-    let mut levels: Vec<f64> = picture.levels.iter().copied().collect();
-    let n = levels.len();
-    let mut at = |part: usize| {
-        let k = (n - 1) * part / 100;
-        *levels.select_nth_unstable_by(k, f64::total_cmp).1
-    };
-    (at(98) - at(2)).max(1.0)
 }

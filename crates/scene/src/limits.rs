@@ -25,11 +25,11 @@ pub(crate) const MOST_PIXEL_BYTES: u64 = 16;
 /// of text cost a second at most.
 pub(crate) const MOST_DRAWN: u64 = 1 << 22;
 
-/// Pixels along the shorter side of a picture: its edges are found by masks of 3 × 3.
-pub(crate) const LEAST_SIDE: usize = 3;
-
 /// Pixels times taps of a smoothing along one axis: about half a minute of work.
 pub(crate) const MOST_SMOOTHING: f64 = 1.7e10;
+
+/// Points of the transform behind vector field convolution: 16 bytes each, three times.
+pub(crate) const MOST_CONVOLUTION: f64 = 2.7e8;
 
 /// Steps of a run: days of work for the smallest snake.
 pub(crate) const MOST_STEPS: u64 = 1_000_000_000;

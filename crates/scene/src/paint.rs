@@ -91,6 +91,42 @@ pub fn enlarged(image: &RgbImage, zoom: f64) -> RgbImage {
     })
 }
 
+/// The picture with so many pixels made one, by their mean, that no side is longer than `longest`.
+pub(crate) fn shrunk(image: &RgbImage, longest: u32) -> RgbImage {
+    let k = image.width().max(image.height()).div_ceil(longest).max(1);
+    if k == 1 {
+        return image.clone();
+    }
+    let (width, height) = (image.width().div_ceil(k), image.height().div_ceil(k));
+    RgbImage::from_fn(width, height, |x, y| {
+        let (mut sum, mut count) = ([0.0; 3], 0.0);
+        for row in y * k..((y + 1) * k).min(image.height()) {
+            for column in x * k..((x + 1) * k).min(image.width()) {
+                let pixel = image.get_pixel(column, row).0;
+                for (sum, value) in sum.iter_mut().zip(pixel) {
+                    *sum += f64::from(value);
+                }
+                count += 1.0;
+            }
+        }
+        Rgb(sum.map(|sum| byte(sum / count)))
+    })
+}
+
+/// The root of every value, with its sign: what is weak is seen too.
+pub(crate) fn rooted(grid: &Grid) -> Grid {
+    grid.mapv(|v| v.abs().sqrt().copysign(v))
+}
+
+/// The picture half way to white, as a ground for what is drawn on it.
+pub(crate) fn faded(image: &RgbImage) -> RgbImage {
+    let mut pale = image.clone();
+    for pixel in pale.pixels_mut() {
+        pixel.0 = pixel.0.map(|v| 127 + v / 2);
+    }
+    pale
+}
+
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -104,6 +104,8 @@ pub struct Scene {
     pub start: State,
     /// How to run it.
     pub plan: Plan,
+    /// What people should know of it though nothing is refused.
+    pub notes: Vec<String>,
 }
 
 impl Scene {

@@ -6,6 +6,11 @@ use crate::file::SceneText;
 
 /// Read the text of a scene.
 pub(crate) fn parse(text: &str) -> Result<SceneText, SceneError> {
+    read(text)
+}
+
+/// Read a text of any shape.
+pub(crate) fn read<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, SceneError> {
     toml::from_str(text).map_err(|error| {
         let start = error.span().map_or(0, |span| span.start.min(text.len()));
         let before = text.get(..start).unwrap_or("");

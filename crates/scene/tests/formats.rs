@@ -37,6 +37,8 @@ rules = { §rules§ all = §rule§"corrected" }
 [view]
 §view§
 y = §up§"up"
+[picture]
+§picture§
 [picture.drawn]
 §drawn§
 size = [64, 64]
@@ -44,6 +46,12 @@ region = { §region§ circle = { §circle§ center = [32.0, 32.0], radius = 9.0 
 [field]
 §field§
 weight = { §along§ along = [[0.0, 1.0]] }
+[[force]]
+kind = "edge"
+weight = 0.0
+[[force]]
+kind = §kind§"gravity"
+acceleration = [0.0, 0.0]
 [snake]
 §snake§
 nodes = 20
@@ -111,9 +119,9 @@ fn marked(place: &str, by: &str) -> String {
 fn known(place: &str) -> Vec<String> {
     // a word of the wrong spelling before the right one, a key before the others
     let wrong = match place {
-        "rule" | "up" | "end" | "border" => "\"zzz\" #",
+        "rule" | "up" | "end" | "border" | "kind" => "\"zzz\" #",
         "topology" => "\"zzz\" #",
-        "root" | "view" | "drawn" | "field" | "snake" | "material" | "densities" | "schedule"
+        "root" | "view" | "picture" | "drawn" | "field" | "snake" | "material" | "densities" | "schedule"
         | "world" | "wall" | "run" | "record" | "also" | "contact" | "upkeep" => "zzz = 1",
         "region" | "shape" | "law" => "zzz = 1 } #",
         _ => "zzz = 1,",
@@ -136,7 +144,22 @@ fn known(place: &str) -> Vec<String> {
     list.split(", ").map(str::to_owned).collect()
 }
 
-const PLACES: [&str; 34] = [
+/// The keys of a kind of force.
+fn known_of(kind: &str) -> Vec<String> {
+    let text = marked("", "").replace(
+        "kind = \"gravity\"\nacceleration = [0.0, 0.0]",
+        &format!("kind = \"{kind}\"\nzzz = 1"),
+    );
+    let error = Scene::parse("x", &text, Path::new("."))
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("unknown key \"zzz\"; did you mean"), "{error}");
+    let list = error.split_once("(known: ").unwrap().1;
+    let list = list.split_once(')').unwrap().0;
+    list.split(", ").map(str::to_owned).collect()
+}
+
+const PLACES: [&str; 35] = [
     "also",
     "contact",
     "upkeep",
@@ -171,6 +194,7 @@ const PLACES: [&str; 34] = [
     "stop",
     "record",
     "picture",
+    "kind",
 ];
 
 #[test]
@@ -183,14 +207,12 @@ fn the_scene_with_everything_is_one() {
 fn every_key_and_word_of_a_scene_is_on_the_page() {
     let page = page();
     let mut all: BTreeSet<String> = BTreeSet::new();
-    for place in PLACES.iter().filter(|place| **place != "picture") {
+    for place in PLACES {
         all.extend(known(place));
     }
-    let text = marked("", "").replace("[picture.drawn]", "[picture.zzz]");
-    let error = Scene::parse("x", &text, Path::new("."))
-        .unwrap_err()
-        .to_string();
-    assert!(error.contains("(known: file, shipped, drawn)"), "{error}");
+    for kind in scene::FORCES {
+        all.extend(known_of(kind.name));
+    }
     for key in &all {
         let named = [
             format!("`{key}`"),
@@ -214,8 +236,8 @@ fn every_key_and_word_of_a_scene_is_on_the_page() {
             .skip(1)
             .step_by(2)
         {
-            let picture = matches!(key, "drawn" | "file" | "shipped");
-            assert!(picture || all.contains(key), "there is no key `{key}`");
+            let kind = scene::FORCES.iter().any(|kind| kind.name == key);
+            assert!(kind || all.contains(key), "there is no key `{key}`");
         }
     }
 }
@@ -223,7 +245,7 @@ fn every_key_and_word_of_a_scene_is_on_the_page() {
 #[test]
 fn every_scene_on_the_page_is_one() {
     let scenes = blocks(&page(), "toml");
-    assert_eq!(scenes.len(), 3);
+    assert_eq!(scenes.len(), 4);
     for text in &scenes {
         let mut scene = scene(text);
         scene.plan.until.steps = 10;

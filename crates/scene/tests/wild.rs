@@ -86,6 +86,79 @@ dt = 0.05
 time = 0.2
 "#;
 
+const FORCES: &str = r#"
+title = "Every kind of force"
+[picture.drawn]
+size = [16, 14]
+region = { circle = { center = [8.0, 7.0], radius = 4.0 } }
+noise = 3.0
+[[force]]
+kind = "edge"
+sigma = 1.5
+strength = 1.0
+weight = { along = [[0.0, 1.0], [1.0, 0.2]] }
+schedule = [[0.0, 1.0], [0.1, 0.5]]
+[[force]]
+kind = "color-edge"
+sigma = 1.5
+strength = 0.1
+[[force]]
+kind = "scales"
+sigmas = [2.0, 1.0]
+strength = 0.1
+[[force]]
+kind = "line"
+sigma = 1.5
+strength = 0.1
+[[force]]
+kind = "termination"
+sigma = 1.5
+strength = 0.1
+floor = 0.1
+[[force]]
+kind = "distance"
+sigma = 1.5
+strength = 0.1
+threshold = 0.2
+reach = 5.0
+[[force]]
+kind = "gvf"
+sigma = 1.5
+strength = 0.1
+smoothness = 0.2
+knee = 0.1
+[[force]]
+kind = "gvf"
+spread = 0.1
+[[force]]
+kind = "vfc"
+sigma = 1.5
+strength = 0.1
+exponent = 2.0
+reach = 9.0
+knee = 0.1
+[[force]]
+kind = "vfc"
+width = 3.0
+[[force]]
+kind = "gravity"
+acceleration = [0.0, 0.1]
+[snake]
+nodes = 9
+topology = "closed"
+start = { circle = { center = [8.0, 7.0], radius = 5.0 } }
+[material]
+tether = 0.05
+tension = 20.0
+rigidity = 50.0
+[densities]
+mass = 1.0
+damping = 4.0
+[run]
+dt = 0.05
+time = 0.2
+"#;
+
 const WILD: [&str; 15] = [
     "nan",
     "inf",
@@ -198,8 +271,13 @@ fn a_line_in_a_picture_with_one_number_gone_wild_runs_or_is_refused() {
 }
 
 #[test]
+fn a_force_with_one_number_gone_wild_runs_or_is_refused() {
+    one_at_a_time(FORCES);
+}
+
+#[test]
 fn a_scene_cut_anywhere_is_refused_or_runs() {
-    for text in [BALL, PICTURE] {
+    for text in [BALL, PICTURE, FORCES] {
         for end in (0..text.len()).filter(|&end| text.is_char_boundary(end)) {
             answer(&text[..end]);
         }

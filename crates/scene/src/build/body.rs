@@ -12,7 +12,7 @@ use super::{Rules, number, refused};
 use crate::SceneError;
 use crate::file::{ProfileText, Rule, SceneText};
 
-pub(super) fn profile(key: &str, text: &ProfileText, n: usize) -> Result<Profile, SceneError> {
+pub(crate) fn profile(key: &str, text: &ProfileText, n: usize) -> Result<Profile, SceneError> {
     match text {
         ProfileText::Uniform(value) => Ok(Profile::Uniform(*value)),
         ProfileText::PerNode(values) if values.len() == n => Ok(Profile::PerNode(values.clone())),
@@ -37,7 +37,7 @@ pub(super) fn profile(key: &str, text: &ProfileText, n: usize) -> Result<Profile
 }
 
 /// Straight lines through pairs whose first numbers ascend and whose second are not negative.
-fn straight(
+pub(crate) fn straight(
     key: &str,
     first: &str,
     second: &str,

@@ -2,6 +2,7 @@
 
 mod body;
 mod company;
+pub(crate) mod force;
 pub(crate) mod number;
 mod plan;
 mod shape;
@@ -15,7 +16,8 @@ use snake::{Snake, SnakeError};
 
 pub(crate) use world::{outside, smoothing};
 
-use crate::file::{PictureText, Rule, RulesText, SceneText, UpDown, ViewText};
+use crate::file::{InvalidText, PictureText, Rule, RulesText, SceneText, UpDown, ViewText};
+use crate::picture::Invalid;
 use crate::scene::{Scene, View};
 use crate::{Picture, SceneError};
 
@@ -82,12 +84,8 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
     if let Some(picture) = &picture {
         world::inside(&start, picture, rules)?;
     }
-    let field = picture
-        .as_ref()
-        .map(|p| world::force_field(&text.field, rules, p))
-        .transpose()?
-        .map(Arc::new);
-    let world = world::world(text, rules, picture.as_ref(), field.clone(), body.len())?;
+    let mut notes = Vec::new();
+    let (world, field) = world::world(text, rules, picture.as_ref(), body.len(), &mut notes)?;
     let snake = Snake::new(body, world).map_err(|e| refused("snake", &e))?;
     let company = company::company(text, rules, picture.as_ref(), &snake, folder)?;
     Ok(Scene {
@@ -102,14 +100,35 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         company,
         start,
         plan,
+        notes,
     })
 }
 
 fn picture(text: &PictureText, folder: &Path) -> Result<Picture, SceneError> {
-    match text {
-        PictureText::File(file) => Picture::load(&folder.join(file)),
-        PictureText::Shipped(name) => Picture::shipped(name),
-        PictureText::Drawn(drawn) => Picture::drawn(drawn),
+    let invalid = match text.invalid {
+        Some(InvalidText::Mask) => Invalid::Mask,
+        Some(InvalidText::Refuse) | None => Invalid::Refuse,
+    };
+    let picture = match (&text.file, &text.shipped, &text.drawn) {
+        (Some(file), None, None) => Picture::load_with(&folder.join(file), invalid),
+        (None, Some(name), None) => Picture::shipped(name),
+        (None, None, Some(drawn)) => Picture::drawn(drawn),
+        (None, None, None) => Err(SceneError::key(
+            "picture",
+            "is not given; one of the keys file, shipped and drawn would do",
+        )),
+        _ => Err(SceneError::key(
+            "picture",
+            "is given more than once; one of the keys file, shipped and drawn would do",
+        )),
+    }?;
+    match &text.mask {
+        None => Ok(picture),
+        Some(file) => {
+            let mask = Picture::load(&folder.join(file))?;
+            let masked = picture.with_mask(&mask);
+            masked.map_err(|message| SceneError::key("picture.mask", message))
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use snake::{Rest, Until};
 
 use super::{Rules, number};
 use crate::SceneError;
-use crate::file::{RecordText, RestText, Rule, RunText, SceneText};
+use crate::file::{RecordText, RestText, Rule, RunText, SceneText, StepText};
 use crate::limits::MOST_STEPS;
 use crate::scene::{Plan, Recording};
 
@@ -18,7 +18,13 @@ pub(super) fn plan(text: &SceneText, rules: Rules) -> Result<Plan, SceneError> {
         None if rules.scheme == Rule::Report => Scheme::Report,
         None => Scheme::Leapfrog,
     };
-    let dt = number::above_zero("run.dt", run.dt)?;
+    let dt = match run.dt {
+        StepText::Fixed(dt) => number::above_zero("run.dt", dt)?,
+        StepText::Auto => {
+            let message = "\"auto\" is not to be had yet; a number above 0 would do";
+            return Err(SceneError::key("run.dt", message));
+        }
+    };
     let until = Until {
         steps: steps(run, dt, rules)?,
         rest: run.rest.as_ref().map(rest).transpose()?,

@@ -9,8 +9,9 @@ use integrator::State;
 use snake::{Acting, ImageForce, Sampling, SnakeError, Wall, WallLaw, World};
 
 use super::body::profile;
+use super::force::{self, Sight};
 use super::{Rules, number};
-use crate::file::{BorderText, FieldText, LawText, Rule, SceneText, WallText};
+use crate::file::{BorderText, FieldText, ForceText, LawText, Rule, SceneText, WallText};
 use crate::limits::MOST_SMOOTHING;
 use crate::{Picture, SceneError};
 
@@ -57,6 +58,10 @@ pub(super) fn force_field(
                 let message = "the report's field smooths by passes; those would do";
                 return Err(SceneError::key("field.sigma", message));
             }
+            if picture.valid().is_some() {
+                let message = "the report's field knows no mask; field = \"corrected\" would do";
+                return Err(SceneError::key("rules.field", message));
+            }
             smoothing("field.passes", binomial, picture)?;
             let (scale, gain) = (scale(field::REPORT_SCALE)?, gain(field::REPORT_GAIN)?);
             field::report_force(&picture.levels, passes, scale, gain).map_err(refuse)
@@ -69,34 +74,56 @@ pub(super) fn force_field(
                 None => smoothing("field.passes", binomial, picture)?,
             };
             let gain = gain(usual)? * scale(1.0)?;
-            field::edge_force(&picture.levels, &EdgeForce { smoothing, gain }).map_err(refuse)
+            let masked = picture.masked(&picture.levels).map_err(refuse)?;
+            masked
+                .edge_force(&EdgeForce { smoothing, gain })
+                .map_err(refuse)
         }
     }
 }
 
+/// The `[field]` of a picture: where it is written, or where there is no `[[force]]` that looks at the picture.
+fn usual_field(text: &SceneText) -> Option<FieldText> {
+    let looked_at = text.force.iter().any(|force| force::looks(&force.kind));
+    match &text.field {
+        Some(field) => Some(field.clone()),
+        None if looked_at => None,
+        None => Some(FieldText::default()),
+    }
+}
+
+/// The world, and the field of the picture's `[field]` in it.
 pub(super) fn world(
     text: &SceneText,
     rules: Rules,
     picture: Option<&Picture>,
-    field: Option<Arc<ForceField>>,
     n: usize,
-) -> Result<World, SceneError> {
+    notes: &mut Vec<String>,
+) -> Result<(World, Option<Arc<ForceField>>), SceneError> {
     let mut world = World::default();
     if let Some(g) = text.world.gravity {
         world = world.with_gravity(number::place("world.gravity", g)?);
     }
-    if let Some(field) = field {
+    let sight = picture.map(Sight::of).transpose()?;
+    notes.extend(sight.as_ref().and_then(Sight::note));
+    let mut usual = None;
+    if let (Some(picture), Some(f)) = (picture, usual_field(text)) {
+        let field = Arc::new(force_field(&f, rules, picture)?);
         let sampling = match rules.sampling {
             Rule::Report => Sampling::OneAxis,
             Rule::Corrected => Sampling::Bilinear,
         };
-        let weight = match &text.field.weight {
+        let weight = match &f.weight {
             Some(weight) => profile("field.weight", weight, n)?,
             None => Profile::Uniform(1.0),
         };
-        let image = Acting::new(ImageForce::new(field, sampling));
+        let image = Acting::new(ImageForce::new(Arc::clone(&field), sampling));
         world = world.with_acting(image.weighted(weight));
+        usual = Some(field);
     }
+    let keyed = |(i, force): (usize, &'_ ForceText)| (format!("force {i}"), force.clone());
+    let keyed: Vec<(String, ForceText)> = text.force.iter().enumerate().map(keyed).collect();
+    world = force::add(world, &keyed, sight.as_ref(), n)?;
     for (i, text) in text.world.wall.iter().enumerate() {
         world.walls.push(wall(&format!("world.wall {i}"), text)?);
     }
@@ -108,7 +135,7 @@ pub(super) fn world(
                 .push(wall.map_err(|e| SceneError::key("world.border", e))?);
         }
     }
-    Ok(world)
+    Ok((world, usual))
 }
 
 fn wall(key: &str, text: &WallText) -> Result<Wall, SceneError> {

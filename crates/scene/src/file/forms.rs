@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer};
 use super::{EachRule, EndsText, OpenClosed, Rule};
 
 /// A number, one number a node, or points along the curve.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum ProfileText {
     Uniform(f64),
     PerNode(Vec<f64>),
@@ -31,7 +31,9 @@ impl<'de> Deserialize<'de> for ProfileText {
 }
 
 /// What is inside a value that may have several forms.
-fn inner<T: for<'a> Deserialize<'a>, E: serde::de::Error>(value: toml::Value) -> Result<T, E> {
+pub(super) fn inner<T: for<'a> Deserialize<'a>, E: serde::de::Error>(
+    value: toml::Value,
+) -> Result<T, E> {
     T::deserialize(value).map_err(|error| E::custom(error.message()))
 }
 
@@ -40,7 +42,7 @@ fn wrong<E: serde::de::Error>(wanted: &str, given: &toml::Value) -> E {
 }
 
 /// `{ along = [[s, value], …] }`: straight between points, `s` from 0 (first node) to 1 (last).
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Along {
     pub along: Vec<[f64; 2]>,
@@ -88,6 +90,24 @@ impl<'de> Deserialize<'de> for TopologyText {
                 "\"open\", \"closed\" or { head = …, tail = … }",
                 &other,
             )),
+        }
+    }
+}
+
+/// A step: a number, or the word for one chosen while it runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum StepText {
+    Fixed(f64),
+    Auto,
+}
+
+impl<'de> Deserialize<'de> for StepText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match toml::Value::deserialize(deserializer)? {
+            toml::Value::Float(value) => Ok(Self::Fixed(value)),
+            toml::Value::String(word) if word == "auto" => Ok(Self::Auto),
+            toml::Value::Integer(value) => inner(toml::Value::Integer(value)).map(Self::Fixed),
+            other => Err(wrong("a number above 0 or \"auto\"", &other)),
         }
     }
 }

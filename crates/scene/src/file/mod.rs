@@ -4,12 +4,14 @@
 //! decided in `build`. `docs/formats.md` explains the format by example.
 
 mod company;
+mod force;
 mod forms;
 
 use serde::Deserialize;
 
 pub(crate) use company::{AlsoText, ContactText, UpkeepText};
-pub(crate) use forms::{ProfileText, RulesText, TopologyText};
+pub(crate) use force::*;
+pub(crate) use forms::{ProfileText, RulesText, StepText, TopologyText};
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -29,7 +31,9 @@ pub(crate) struct SceneText {
     #[serde(default)]
     pub picture: Option<PictureText>,
     #[serde(default)]
-    pub field: FieldText,
+    pub field: Option<FieldText>,
+    #[serde(default)]
+    pub force: Vec<ForceText>,
     pub snake: SnakeText,
     #[serde(default)]
     pub also: Vec<AlsoText>,
@@ -90,13 +94,26 @@ pub(crate) enum UpDown {
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) enum PictureText {
+pub(crate) struct PictureText {
     /// A file beside the scene.
-    File(String),
+    pub file: Option<String>,
     /// A picture that comes with the program.
-    Shipped(String),
+    pub shipped: Option<String>,
     /// Drawn from numbers.
-    Drawn(DrawnText),
+    pub drawn: Option<DrawnText>,
+    /// A picture file of the pixels that count.
+    pub mask: Option<String>,
+    /// What becomes of pixels that are no finite numbers.
+    pub invalid: Option<InvalidText>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum InvalidText {
+    /// The picture is refused.
+    Refuse,
+    /// They do not count.
+    Mask,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -323,7 +340,7 @@ pub(crate) struct RestText {
 pub(crate) struct RunText {
     #[serde(default)]
     pub scheme: Option<String>,
-    pub dt: f64,
+    pub dt: StepText,
     #[serde(default)]
     pub steps: Option<u64>,
     #[serde(default)]

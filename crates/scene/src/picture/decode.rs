@@ -3,14 +3,16 @@
 use std::fs::File;
 use std::io::{Cursor, Read as _};
 use std::path::Path;
+use std::sync::Arc;
 
 use field::Grid;
-use image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader, Limits};
+use image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader, Limits, Rgb, RgbImage};
+use ndarray::Array2;
 use tiff::decoder::{Decoder, DecodingResult};
 
-use super::Picture;
+use super::{Invalid, Picture};
 use crate::error::clip;
-use crate::limits::{LEAST_SIDE, MOST_PIXEL_BYTES, MOST_PIXELS};
+use crate::limits::{MOST_PIXEL_BYTES, MOST_PIXELS};
 
 /// What to say instead of every other kind of file.
 const WANTED: &str = "a PNG, JPEG, TIFF, PGM or PPM picture";
@@ -20,7 +22,7 @@ const HEAD: u64 = 64;
 
 /// Read a picture file. Its head is looked at first, so that an endless file that is no picture is
 /// not read to its end.
-pub(super) fn load(path: &Path) -> Result<Picture, String> {
+pub(super) fn load(path: &Path, invalid: Invalid) -> Result<Picture, String> {
     let unread = |e: std::io::Error| format!("cannot be read: {e}; {WANTED} would do");
     let mut file = File::open(path).map_err(unread)?;
     let mut bytes = Vec::new();
@@ -29,7 +31,7 @@ pub(super) fn load(path: &Path) -> Result<Picture, String> {
     format(&bytes)?;
     let most = MOST_PIXELS * MOST_PIXEL_BYTES;
     file.take(most).read_to_end(&mut bytes).map_err(unread)?;
-    decode(&bytes, MOST_PIXELS)
+    decode(&bytes, MOST_PIXELS, invalid)
 }
 
 /// What a file is by its first bytes.
@@ -48,10 +50,10 @@ fn format(head: &[u8]) -> Result<ImageFormat, String> {
 }
 
 /// A picture of at most `most` pixels from the bytes of a file.
-pub(super) fn decode(bytes: &[u8], most: u64) -> Result<Picture, String> {
+pub(super) fn decode(bytes: &[u8], most: u64, invalid: Invalid) -> Result<Picture, String> {
     let format = format(bytes)?;
     if format == ImageFormat::Tiff
-        && let Some(picture) = grey_floats(bytes, most)?
+        && let Some(picture) = grey_floats(bytes, most, invalid)?
     {
         return Ok(picture);
     }
@@ -61,15 +63,18 @@ pub(super) fn decode(bytes: &[u8], most: u64) -> Result<Picture, String> {
     reader.limits(limits);
     let decoder = reader.into_decoder().map_err(broken)?;
     check_size(decoder.dimensions(), most)?;
-    from_image(&DynamicImage::from_decoder(decoder).map_err(broken)?)
+    from_image(
+        &DynamicImage::from_decoder(decoder).map_err(broken)?,
+        invalid,
+    )
 }
 
-/// Refuse a picture too small to hold an edge, or too large to hold in memory.
+/// Refuse a picture without a pixel, or too large to hold in memory.
 fn check_size((width, height): (u32, u32), most: u64) -> Result<(), String> {
     let pixels = u64::from(width) * u64::from(height);
-    if u64::from(width.min(height)) < LEAST_SIDE as u64 {
+    if pixels == 0 {
         return Err(format!(
-            "the picture is {width}×{height}; at least {LEAST_SIDE}×{LEAST_SIDE} pixels would do"
+            "the picture is {width}×{height}; at least one pixel would do"
         ));
     }
     if pixels > most {
@@ -81,7 +86,7 @@ fn check_size((width, height): (u32, u32), most: u64) -> Result<(), String> {
 }
 
 /// A TIFF of one float a pixel, which the general reader does not know; None if it is another one.
-fn grey_floats(bytes: &[u8], most: u64) -> Result<Option<Picture>, String> {
+fn grey_floats(bytes: &[u8], most: u64, invalid: Invalid) -> Result<Option<Picture>, String> {
     let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(broken)?;
     if !matches!(decoder.colortype(), Ok(tiff::ColorType::Gray(32 | 64))) {
         return Ok(None);
@@ -103,19 +108,40 @@ fn grey_floats(bytes: &[u8], most: u64) -> Result<Option<Picture>, String> {
             );
         }
     };
-    let levels = grid(width as usize, height as usize, levels)?;
-    Ok(Some(Picture::from_levels(levels)))
+    let (levels, valid) = grid(width as usize, height as usize, levels, invalid)?;
+    let mut picture = Picture::from_levels(levels);
+    picture.valid = valid;
+    Ok(Some(picture))
 }
 
-/// Grey levels as a grid, all of them finite.
-fn grid(width: usize, height: usize, levels: Vec<f64>) -> Result<Grid, String> {
+/// Grey levels as a grid, all of them finite, and which of them count.
+fn grid(
+    width: usize,
+    height: usize,
+    mut levels: Vec<f64>,
+    invalid: Invalid,
+) -> Result<(Grid, Option<Array2<bool>>), String> {
+    let mut valid = None;
     if let Some(at) = levels.iter().position(|v| !v.is_finite()) {
         let (x, y, level) = (at % width.max(1), at / width.max(1), levels[at]);
-        return Err(format!(
-            "pixel ({x}, {y}) is {level}; finite numbers would do"
-        ));
+        if invalid == Invalid::Refuse {
+            return Err(format!(
+                "pixel ({x}, {y}) is {level}; finite numbers would do, or invalid = \"mask\""
+            ));
+        }
+        let Some(&first) = levels.iter().find(|v| v.is_finite()) else {
+            return Err("not one of its pixels is a number; one would do".to_owned());
+        };
+        let counts = levels.iter().map(|v| v.is_finite()).collect();
+        valid = Some(Array2::from_shape_vec((height, width), counts).map_err(broken)?);
+        for level in &mut levels {
+            if !level.is_finite() {
+                *level = first;
+            }
+        }
     }
-    Grid::from_shape_vec((height, width), levels).map_err(broken)
+    let levels = Grid::from_shape_vec((height, width), levels).map_err(broken)?;
+    Ok((levels, valid))
 }
 
 fn broken(error: impl std::fmt::Display) -> String {
@@ -123,7 +149,7 @@ fn broken(error: impl std::fmt::Display) -> String {
     format!("the picture cannot be decoded: {error}; a whole one would do")
 }
 
-fn from_image(image: &DynamicImage) -> Result<Picture, String> {
+fn from_image(image: &DynamicImage, invalid: Invalid) -> Result<Picture, String> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     // grey in three channels is that grey exactly, as in one
     let luma = |[r, g, b]: [f64; 3]| {
@@ -154,9 +180,43 @@ fn from_image(image: &DynamicImage) -> Result<Picture, String> {
             .map(|p| luma(p.0.map(f64::from)))
             .collect(),
     };
-    let levels = grid(width, height, levels)?;
+    let (levels, valid) = grid(width, height, levels, invalid)?;
+    let display = image.to_rgb8();
+    let (color, deep) = colors(image, &display);
     Ok(Picture {
-        display: image.to_rgb8(),
         levels,
+        display,
+        color,
+        deep,
+        valid,
     })
+}
+
+/// Whether there is more than grey in an image, and its colors if they have more than eight bits.
+fn colors(image: &DynamicImage, display: &RgbImage) -> (bool, Option<Arc<Vec<[f32; 3]>>>) {
+    let deep: Option<Vec<[f32; 3]>> = match image {
+        DynamicImage::ImageRgb16(_) | DynamicImage::ImageRgba16(_) => {
+            let pixels = image.to_rgb16();
+            let shallow = |p: &Rgb<u16>| p.0.map(|v| f32::from(v) / 257.0);
+            Some(pixels.pixels().map(shallow).collect())
+        }
+        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
+            let pixels = image.to_rgb32f();
+            // what is no number does not count
+            let finite = |v: f32| if v.is_finite() { v * 255.0 } else { 0.0 };
+            Some(pixels.pixels().map(|p| p.0.map(finite)).collect())
+        }
+        _ => None,
+    };
+    let grey = |[r, g, b]: [f32; 3]| r.to_bits() == g.to_bits() && g.to_bits() == b.to_bits();
+    match deep {
+        Some(deep) if deep.iter().all(|&p| grey(p)) => (false, None),
+        Some(deep) => (true, Some(Arc::new(deep))),
+        None => (
+            display
+                .pixels()
+                .any(|p| !(p.0[0] == p.0[1] && p.0[1] == p.0[2])),
+            None,
+        ),
+    }
 }

@@ -7,7 +7,7 @@ use super::Picture;
 use crate::SceneError;
 use crate::build::{number, smoothing};
 use crate::file::{DrawnText, RegionText};
-use crate::limits::{LEAST_SIDE, MOST_DRAWN};
+use crate::limits::MOST_DRAWN;
 
 impl Picture {
     /// A picture drawn from numbers: a region on a ground, blurred, with noise from a seed.
@@ -21,10 +21,9 @@ impl Picture {
         };
         let [width, height] = text.size;
         let pixels = (width as u64).saturating_mul(height as u64);
-        if width.min(height) < LEAST_SIDE || pixels > MOST_DRAWN {
+        if pixels == 0 || pixels > MOST_DRAWN {
             let message = format!(
-                "got {width} × {height}; from {LEAST_SIDE} × {LEAST_SIDE} to {MOST_DRAWN} pixels \
-                 in all would do"
+                "got {width} × {height}; from 1 × 1 to {MOST_DRAWN} pixels in all would do"
             );
             return Err(key("size", message));
         }

@@ -3,15 +3,18 @@
 //! Inside, a picture is grey *levels* from 0 (black) to 255 (white), whatever the file held: eight
 //! bits as they are, sixteen divided by 257, floats (0 … 1) times 255. So a force has the same size
 //! for the same picture at any depth, and the report's parameters mean what they meant. Colour
-//! becomes grey by `0.299 R + 0.587 G + 0.114 B`, not rounded; transparency is ignored.
+//! becomes grey by `0.299 R + 0.587 G + 0.114 B`, not rounded; the colors are kept for forces that ask
+//! for them. Transparency is ignored. Some pixels may not count: those a mask says, those that are no numbers.
 
 mod decode;
 mod drawn;
 
 use std::path::Path;
+use std::sync::Arc;
 
-use field::Grid;
+use field::{FieldError, Grid, MaskedImage};
 use image::RgbImage;
+use ndarray::Array2;
 
 use crate::SceneError;
 use crate::limits::MOST_PIXELS;
@@ -23,6 +26,22 @@ pub struct Picture {
     pub levels: Grid,
     /// The same as a person sees it.
     pub display: RgbImage,
+    /// Whether its colors are more than grey.
+    color: bool,
+    /// Colors of more than eight bits; those of eight bits are what is displayed.
+    deep: Option<Arc<Vec<[f32; 3]>>>,
+    /// Which pixels count; all if none.
+    valid: Option<Array2<bool>>,
+}
+
+/// What becomes of pixels that are no finite numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Invalid {
+    /// The picture is refused.
+    #[default]
+    Refuse,
+    /// They do not count.
+    Mask,
 }
 
 /// The pictures that come with the program, by name.
@@ -40,9 +59,18 @@ impl Picture {
     /// # Errors
     ///
     /// A file that cannot be opened, is empty or truncated, is no picture of a known format, has
-    /// too few pixels to find an edge in or too many, or holds numbers that are not finite.
+    /// no pixel or too many, or holds numbers that are not finite.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
-        decode::load(path).map_err(|message| SceneError::file(path, message))
+        Self::load_with(path, Invalid::Refuse)
+    }
+
+    /// [`Picture::load`] with a word on pixels that are no finite numbers.
+    ///
+    /// # Errors
+    ///
+    /// As [`Picture::load`]; not one pixel that is a number.
+    pub fn load_with(path: &Path, invalid: Invalid) -> Result<Self, SceneError> {
+        decode::load(path, invalid).map_err(|message| SceneError::file(path, message))
     }
 
     /// A picture that comes with the program.
@@ -74,7 +102,7 @@ impl Picture {
     ///
     /// As [`Picture::decode`]; more than `most` pixels.
     pub fn decode_small(bytes: &[u8], most: u64) -> Result<Self, String> {
-        decode::decode(bytes, most)
+        decode::decode(bytes, most, Invalid::Refuse)
     }
 
     /// A picture of grey levels; shown rounded and clamped to 0 … 255.
@@ -85,7 +113,98 @@ impl Picture {
             let level = crate::paint::byte(levels[[y as usize, x as usize]]);
             image::Rgb([level; 3])
         });
-        Self { levels, display }
+        Self {
+            levels,
+            display,
+            color: false,
+            deep: None,
+            valid: None,
+        }
+    }
+
+    /// The same picture of which only the pixels count that are not black in `mask`.
+    ///
+    /// # Errors
+    ///
+    /// A mask of another size, or one that leaves no pixel.
+    pub fn with_mask(mut self, mask: &Self) -> Result<Self, String> {
+        if mask.size() != self.size() {
+            let ((a, b), (width, height)) = (mask.size(), self.size());
+            return Err(format!(
+                "the mask has {a}×{b} pixels and the picture {width}×{height}; as many would do"
+            ));
+        }
+        let mut valid = mask.levels.mapv(|level| level > 0.0);
+        if let Some(before) = &self.valid {
+            valid.zip_mut_with(before, |now, &before| *now &= before);
+        }
+        if !valid.iter().any(|&ok| ok) {
+            return Err("leaves no pixel; one that is not black would do".to_owned());
+        }
+        self.valid = Some(valid);
+        Ok(self)
+    }
+
+    /// Which pixels count, indexed `[[y, x]]`; None if all do.
+    #[must_use]
+    pub const fn valid(&self) -> Option<&Array2<bool>> {
+        self.valid.as_ref()
+    }
+
+    /// Whether there is more than grey in it.
+    #[must_use]
+    pub const fn is_color(&self) -> bool {
+        self.color
+    }
+
+    /// Its channels, 0 … 255: red, green and blue, or its levels alone if it is grey.
+    #[must_use]
+    pub fn channels(&self) -> Vec<Grid> {
+        if !self.color {
+            return vec![self.levels.clone()];
+        }
+        let (width, height) = self.size();
+        let channel = |c: usize| {
+            Grid::from_shape_fn((height, width), |(y, x)| match &self.deep {
+                Some(colors) => f64::from(colors[y * width + x][c]),
+                None => f64::from(self.display.get_pixel(as_u32(x), as_u32(y)).0[c]),
+            })
+        };
+        (0..3).map(channel).collect()
+    }
+
+    /// A grid of this picture's size with the word on which of its pixels count.
+    pub(crate) fn masked(&self, grid: &Grid) -> Result<MaskedImage, FieldError> {
+        match &self.valid {
+            Some(valid) => MaskedImage::new(grid, valid),
+            None => MaskedImage::whole(grid),
+        }
+    }
+
+    /// Spread of a grid of this picture's size: from the 2nd to the 98th percentile of what counts, or where
+    /// these are one, from the least to the largest. 0 for a constant.
+    pub(crate) fn contrast(&self, grid: &Grid) -> f64 {
+        let mut levels: Vec<f64> = match &self.valid {
+            None => grid.iter().copied().collect(),
+            Some(valid) => {
+                let both = grid.iter().zip(valid);
+                both.filter(|(_, ok)| **ok).map(|(&v, _)| v).collect()
+            }
+        };
+        let n = levels.len();
+        if n == 0 {
+            return 0.0;
+        }
+        let mut at = |part: usize| {
+            let k = (n - 1) * part / 100;
+            *levels.select_nth_unstable_by(k, f64::total_cmp).1
+        };
+        let spread = at(98) - at(2);
+        if spread > 0.0 {
+            spread
+        } else {
+            at(100) - at(0)
+        }
     }
 
     /// Width and height.

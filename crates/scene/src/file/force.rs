@@ -1,0 +1,200 @@
+//! `[[force]]`: one force of the world, by its kind.
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+
+use super::ProfileText;
+use super::forms::inner;
+
+/// One `[[force]]`: its kind with the keys of that kind, and what every kind has.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ForceText {
+    pub kind: KindText,
+    pub common: CommonText,
+}
+
+/// The keys that every kind has.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct CommonText {
+    pub name: Option<String>,
+    pub weight: Option<ProfileText>,
+    pub schedule: Option<Vec<[f64; 2]>>,
+}
+
+/// The names of those keys, and the one that says which kind.
+const COMMON: [&str; 4] = ["kind", "name", "weight", "schedule"];
+
+macro_rules! kinds {
+    ($($word:literal $variant:ident($text:ty)),* $(,)?) => {
+        /// Which force, with its own keys.
+        #[derive(Debug, Clone, PartialEq)]
+        pub(crate) enum KindText {
+            $($variant($text)),*
+        }
+
+        /// The word of every kind.
+        pub(crate) const WORDS: &[&str] = &[$($word),*];
+
+        impl KindText {
+            /// The word for it.
+            pub(crate) const fn word(&self) -> &'static str {
+                match self {
+                    $(Self::$variant(_) => $word),*
+                }
+            }
+
+            fn read(word: &str, keys: toml::Table) -> Result<Self, toml::de::Error> {
+                match word {
+                    $($word => <$text>::deserialize(keys).map(Self::$variant),)*
+                    _ => Err(unknown("variant", word, WORDS)),
+                }
+            }
+        }
+    };
+}
+
+kinds![
+    "edge" Edge(EdgeText),
+    "color-edge" ColorEdge(StrengthText),
+    "scales" Scales(ScalesText),
+    "line" Line(LineText),
+    "termination" Termination(TerminationText),
+    "distance" Distance(DistanceText),
+    "gvf" Gvf(GvfText),
+    "vfc" Vfc(VfcText),
+    "gravity" Gravity(GravityText),
+];
+
+/// As serde says it, so that all such messages are one.
+fn unknown<E: serde::de::Error>(what: &str, word: &str, known: &[&str]) -> E {
+    E::custom(format!(
+        "unknown {what} `{word}`, expected one of `{}`",
+        known.join("`, `")
+    ))
+}
+
+impl<'de> Deserialize<'de> for ForceText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut keys = toml::Table::deserialize(deserializer)?;
+        let mut common = toml::Table::new();
+        let word = keys.remove(COMMON[0]);
+        for key in &COMMON[1..] {
+            if let Some(value) = keys.remove(*key) {
+                common.insert((*key).to_owned(), value);
+            }
+        }
+        let word = match word {
+            Some(toml::Value::String(word)) => word,
+            Some(other) => {
+                let message = format!("kind: expected a word, got {other}");
+                return Err(D::Error::custom(message));
+            }
+            None => return Err(D::Error::missing_field(COMMON[0])),
+        };
+        let kind = KindText::read(&word, keys).map_err(|error| {
+            let message = error.message();
+            // the keys of every kind are known too
+            if message.starts_with("unknown field") {
+                let given = message.split('`').nth(1).unwrap_or("");
+                let own = message.split('`').skip(3).step_by(2);
+                let known: Vec<&str> = COMMON.into_iter().chain(own).collect();
+                unknown("field", given, &known)
+            } else {
+                D::Error::custom(message)
+            }
+        })?;
+        let common = inner(toml::Value::Table(common))?;
+        Ok(Self { kind, common })
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum PolarityText {
+    Either,
+    DarkToBright,
+    BrightToDark,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct EdgeText {
+    pub sigma: Option<f64>,
+    pub strength: Option<f64>,
+    pub polarity: Option<PolarityText>,
+}
+
+/// A kind that needs no more than a smoothing and a strength.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct StrengthText {
+    pub sigma: Option<f64>,
+    pub strength: Option<f64>,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct ScalesText {
+    pub sigmas: Option<Vec<f64>>,
+    pub strength: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum ShadeText {
+    Bright,
+    Dark,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct LineText {
+    pub sigma: Option<f64>,
+    pub strength: Option<f64>,
+    pub shade: Option<ShadeText>,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct TerminationText {
+    pub sigma: Option<f64>,
+    pub strength: Option<f64>,
+    pub floor: Option<f64>,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct DistanceText {
+    pub sigma: Option<f64>,
+    pub strength: Option<f64>,
+    pub threshold: Option<f64>,
+    pub reach: Option<f64>,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct GvfText {
+    pub sigma: Option<f64>,
+    pub strength: Option<f64>,
+    pub smoothness: Option<f64>,
+    pub spread: Option<f64>,
+    pub knee: Option<f64>,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct VfcText {
+    pub sigma: Option<f64>,
+    pub strength: Option<f64>,
+    pub exponent: Option<f64>,
+    pub width: Option<f64>,
+    pub reach: Option<f64>,
+    pub knee: Option<f64>,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct GravityText {
+    pub acceleration: [f64; 2],
+}

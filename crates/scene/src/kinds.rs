@@ -1,0 +1,147 @@
+//! The kinds of force by name: what `snake list forces` shows, and one picked on a command line.
+
+use crate::SceneError;
+use crate::build::force;
+use crate::error::{clip, nearest};
+use crate::file::{ForceText, WORDS};
+
+/// A kind of force that a scene can name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ForceKind {
+    /// The word for it: `kind` of a `[[force]]`.
+    pub name: &'static str,
+    /// One line for people.
+    pub summary: &'static str,
+    /// What it is minus the gradient of, per unit of length of the curve; "none" where there is no energy.
+    pub energy: &'static str,
+}
+
+macro_rules! forces {
+    ($($name:literal, $summary:literal, $energy:literal;)*) => {
+        /// Every kind of force, in the order of `docs/formats.md`.
+        pub const FORCES: &[ForceKind] =
+            &[$(ForceKind { name: $name, summary: $summary, energy: $energy }),*];
+    };
+}
+
+forces![
+    "edge", "edges of the grey picture, of either polarity", "-|grad(G*I)|";
+    "color-edge", "edges in color, those between colors of equal grey too", "-sqrt(l1-l2) of the structure tensor";
+    "scales", "edges at several scales at once", "-max over the scales of sqrt(s)|grad(G_s*I)|";
+    "line", "bright or dark lines", "-(G*I), or that itself";
+    "termination", "ends of lines, and corners", "-|curvature of the level lines|";
+    "distance", "the nearest edge, with constant pull", "distance to the nearest edge";
+    "gvf", "gradient vector flow: edges from as far as the picture is wide", "none";
+    "vfc", "vector field convolution: all edges at once, by distance", "none";
+    "gravity", "a uniform acceleration", "-mass * acceleration . x";
+];
+
+/// A kind of force as picked on a command line: a [`ForceKind`]'s name, `name:weight`, or the inside of a
+/// `[[force]]` as a TOML table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForceChoice(pub(crate) ForceText);
+
+impl ForceChoice {
+    /// Read one: `gvf`, `gvf:0.5`, `{ kind = "edge", sigma = 2.0 }`.
+    ///
+    /// ```
+    /// let error = scene::ForceChoice::parse("gvff:0.5").unwrap_err();
+    /// assert!(error.contains("did you mean \"gvf\"?"));
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// A name that none has, with the nearest one; a weight that is no number; keys that a `[[force]]` of this
+    /// kind does not have, or lacks. As a message without the flag.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let text = text.trim();
+        let table = if text.starts_with('{') {
+            format!("force = {text}")
+        } else {
+            let (name, weight) = match text.split_once(':') {
+                Some((name, weight)) => (name.trim(), Some(weight.trim())),
+                None => (text, None),
+            };
+            if !WORDS.contains(&name) {
+                let (name, near) = (clip(name), nearest(name, WORDS.iter().copied()));
+                let known = WORDS.join(", ");
+                return Err(format!(
+                    "no kind of force is called \"{name}\"; did you mean \"{near}\"? (known: {known})"
+                ));
+            }
+            let weight = match weight.map(str::parse::<f64>) {
+                None => String::new(),
+                Some(Ok(weight)) if weight.is_finite() && weight >= 0.0 => {
+                    format!(", weight = {weight:?}")
+                }
+                Some(_) => {
+                    let message = "the weight behind the colon must be finite and at least 0";
+                    return Err(format!("{message}, got {}", clip(text)));
+                }
+            };
+            format!("force = {{ kind = \"{name}\"{weight} }}")
+        };
+        crate::toml_error::read::<One>(&table)
+            .map(|one| Self(one.force))
+            .map_err(|error| match error {
+                SceneError::Text { message, .. } => message,
+                other => other.to_string(),
+            })
+    }
+
+    /// Whether it is a field of the picture alone: one that asks for no curve.
+    #[must_use]
+    pub const fn is_field(&self) -> bool {
+        force::is_field(&self.0.kind)
+    }
+
+    /// The name of its kind.
+    #[must_use]
+    pub const fn kind(&self) -> &'static str {
+        self.0.kind.word()
+    }
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct One {
+    force: ForceText,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_is_listed_and_every_listed_kind_is_one() {
+        let names: Vec<&str> = FORCES.iter().map(|kind| kind.name).collect();
+        assert_eq!(names, WORDS);
+    }
+
+    #[test]
+    fn a_choice_is_a_name_a_name_with_a_weight_or_a_table() {
+        assert_eq!(ForceChoice::parse("gvf").unwrap().kind(), "gvf");
+        let half = ForceChoice::parse(" vfc : 0.5").unwrap();
+        assert_eq!(
+            half.0.common.weight,
+            Some(crate::file::ProfileText::Uniform(0.5))
+        );
+        let fine = ForceChoice::parse("{ kind = \"edge\", sigma = 2.0, name = \"fine\" }").unwrap();
+        assert_eq!(fine.0.common.name.as_deref(), Some("fine"));
+        for (bad, says) in [
+            ("gvff", "did you mean \"gvf\""),
+            ("gvf:-1", "at least 0"),
+            ("gvf:much", "at least 0"),
+            ("{ kind = \"edge\", sgma = 2.0 }", "did you mean \"sigma\""),
+            ("{ kind = \"egde\" }", "did you mean \"edge\""),
+            ("{ sigma = 2.0 }", "kind"),
+            ("{ kind = \"gravity\" }", "acceleration"),
+            ("{", "inline table"),
+            ("", "no kind"),
+        ] {
+            let error = ForceChoice::parse(bad).unwrap_err();
+            assert!(error.contains(says), "{bad}: {error}");
+            assert_eq!(error.lines().count(), 1, "{error}");
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! Every stage from a picture to its force, and every kind of force field: what `snake field` writes.
+
+mod html;
+
+use std::path::{Path, PathBuf};
+
+use field::{EdgeForce, ForceField, Grid, Smoothing};
+use glam::DVec2;
+use html::Part;
+use image::RgbImage;
+
+use crate::build::force::Sight;
+use crate::numbers::{float_tiff, npy};
+use crate::write::write_whole;
+use crate::{FORCES, ForceChoice, Picture, SceneError, build, paint, ready_folder};
+
+/// What to write about a picture's forces.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fields {
+    /// The stages of the edge force under both rules.
+    pub stages: bool,
+    /// Smoothing of these stages.
+    pub smoothing: Smoothing,
+    /// And the field of each of these kinds.
+    pub kinds: Vec<ForceChoice>,
+}
+
+impl Fields {
+    /// Every kind that is a field, with its usual numbers.
+    #[must_use]
+    pub fn every_kind() -> Vec<ForceChoice> {
+        FORCES
+            .iter()
+            .filter_map(|kind| ForceChoice::parse(kind.name).ok())
+            .filter(ForceChoice::is_field)
+            .collect()
+    }
+
+    /// Write everything into `folder`: pictures (`NAME.png`), numbers (`NAME.npy`, `NAME.tiff`), and a page with
+    /// all pictures side by side (`index.html`). Each file is written whole or not at all; returns the files.
+    ///
+    /// # Errors
+    ///
+    /// A folder that cannot be made or written (found out first); a smoothing, or a kind, that is refused, by the
+    /// flag.
+    pub fn write(&self, picture: &Picture, folder: &Path) -> Result<Vec<PathBuf>, SceneError> {
+        let flag = match self.smoothing {
+            Smoothing::Binomial(_) => "--passes",
+            Smoothing::Gaussian(_) => "--sigma",
+        };
+        let smoothing = build::smoothing(flag, self.smoothing, picture)?;
+        if let Some(choice) = self.kinds.iter().find(|choice| !choice.is_field()) {
+            let fields = FORCES.iter().map(|kind| kind.name);
+            let fields: Vec<&str> = fields
+                .filter(|name| ForceChoice::parse(name).is_ok_and(|choice| choice.is_field()))
+                .collect();
+            let message = format!(
+                "{} is no field of the picture alone; one of {} would do",
+                choice.kind(),
+                fields.join(", ")
+            );
+            return Err(SceneError::key("--kind", message));
+        }
+        let sight = Sight::of(picture)?;
+        ready_folder(folder)?;
+        let mut sheet = Sheet {
+            folder,
+            picture,
+            files: Vec::new(),
+            parts: Vec::new(),
+        };
+        let (width, height) = picture.size();
+        sheet.begin("The picture", format!("{width} × {height} pixels"));
+        sheet.show("0-picture", "grey levels", &paint::grey(&picture.levels))?;
+        if self.stages {
+            sheet.stages(smoothing)?;
+        }
+        let mut taken: Vec<String> = Vec::new();
+        for choice in &self.kinds {
+            let again = taken.iter().filter(|name| *name == choice.kind()).count();
+            taken.push(choice.kind().to_owned());
+            let name = match again {
+                0 => choice.kind().to_owned(),
+                again => format!("{}-{}", choice.kind(), again + 1),
+            };
+            let Some(made) = sight.field("--kind", &choice.0.kind)? else {
+                continue;
+            };
+            let known = FORCES.iter().find(|kind| kind.name == choice.kind());
+            let (summary, energy) = known.map_or(("", ""), |kind| (kind.summary, kind.energy));
+            let note = format!("{summary}; energy: {energy}");
+            sheet.force(&name, &note, &made.field, made.energy.as_ref())?;
+        }
+        sheet.end()
+    }
+}
+
+/// What is written, and the page that grows with it.
+struct Sheet<'a> {
+    folder: &'a Path,
+    picture: &'a Picture,
+    files: Vec<PathBuf>,
+    parts: Vec<Part>,
+}
+
+impl Sheet<'_> {
+    fn begin(&mut self, title: &str, note: String) {
+        self.parts.push(Part::new(title, note));
+    }
+
+    fn show(&mut self, name: &str, caption: &str, image: &RgbImage) -> Result<(), SceneError> {
+        if let Some(part) = self.parts.last_mut() {
+            part.show(caption, image)?;
+        }
+        self.keep(&format!("{name}.png"), &paint::png(image)?)
+    }
+
+    fn keep(&mut self, name: &str, bytes: &[u8]) -> Result<(), SceneError> {
+        let path = self.folder.join(name);
+        write_whole(&path, bytes)?;
+        self.files.push(path);
+        Ok(())
+    }
+
+    fn stages(&mut self, smoothing: Smoothing) -> Result<(), SceneError> {
+        let refuse = |error: field::FieldError| SceneError::key("field", error);
+        let unsmoothed = EdgeForce {
+            smoothing: Smoothing::Binomial(0),
+            gain: EdgeForce::as_strong_as_the_report().gain,
+        };
+        let masked = self.picture.masked(&self.picture.levels).map_err(refuse)?;
+        let smoothed = masked.smoothed(smoothing).map_err(refuse)?;
+        let stages = field::edge_stages(&smoothed, &unsmoothed).map_err(refuse)?;
+        let sigma = smoothing.sigma();
+        self.begin(
+            "Stages of the edge force",
+            format!("corrected rules, smoothed with a Gaussian of σ = {sigma:.2} pixels or as many passes"),
+        );
+        for (name, caption, image) in [
+            ("1-smoothed", "smoothed", paint::grey(&stages.smoothed)),
+            (
+                "2-gradient-x",
+                "derivative in x",
+                paint::signed(&stages.gradient_x),
+            ),
+            (
+                "3-gradient-y",
+                "derivative in y",
+                paint::signed(&stages.gradient_y),
+            ),
+            (
+                "4-edge-strength",
+                "length of the gradient",
+                paint::grey(&stages.strength),
+            ),
+        ] {
+            self.show(name, caption, &image)?;
+        }
+        let energy = stages.strength.mapv(|p| -unsmoothed.gain * p);
+        let force = masked.cut(&stages.force).map_err(refuse)?;
+        let note = "corrected rules: the gradient of the gradient's length";
+        self.force("5-force", note, &force, Some(&energy))?;
+        if self.picture.valid().is_some() {
+            return Ok(()); // the report's field knows no mask
+        }
+        let passes = match smoothing {
+            Smoothing::Binomial(passes) => passes,
+            Smoothing::Gaussian(_) => field::REPORT_PASSES,
+        };
+        let (scale, gain) = (field::REPORT_SCALE, field::REPORT_GAIN);
+        let report = field::report_force(&self.picture.levels, passes, scale, gain);
+        let note = format!("report rules, {passes} passes: each axis by itself; energy: none");
+        self.force("6-report-force", &note, &report.map_err(refuse)?, None)
+    }
+
+    /// A field as pictures and as numbers.
+    fn force(
+        &mut self,
+        name: &str,
+        note: &str,
+        field: &ForceField,
+        energy: Option<&Grid>,
+    ) -> Result<(), SceneError> {
+        let (x, y) = field.components();
+        let length = Grid::from_shape_fn(x.dim(), |at| x[at].hypot(y[at]));
+        let mean = length.sum() / length.len() as f64;
+        let largest = field.largest();
+        self.begin(
+            name,
+            format!("{note}. Largest force {largest:.3}, on average {mean:.3}."),
+        );
+        for (which, caption, image) in [
+            ("x", "x component (red right, blue left), by its root", paint::signed(&paint::rooted(&x))),
+            ("y", "y component (red down, blue up), by its root", paint::signed(&paint::rooted(&y))),
+            (
+                "directions",
+                "direction as hue, length as depth",
+                paint::wheel(&x, &y),
+            ),
+            (
+                "arrows",
+                "arrows as long as the root of the force",
+                arrows(self.picture, field),
+            ),
+            (
+                "magnitude",
+                "magnitude (white: largest), by its root",
+                paint::grey(&paint::rooted(&length)),
+            ),
+        ] {
+            self.show(&format!("{name}-{which}"), caption, &image)?;
+        }
+        if let Some(energy) = energy {
+            let image = paint::grey(energy);
+            let caption = "potential (dark: low, where a curve would lie)";
+            self.show(&format!("{name}-potential"), caption, &image)?;
+            self.keep(&format!("{name}-potential.npy"), &npy(&[energy]))?;
+        }
+        self.keep(&format!("{name}.npy"), &npy(&[&x, &y]))?;
+        self.keep(&format!("{name}.tiff"), &float_tiff(&[&x, &y])?)
+    }
+
+    fn end(mut self) -> Result<Vec<PathBuf>, SceneError> {
+        let page = html::page("From a picture to its forces", &self.parts);
+        self.keep("index.html", page.as_bytes())?;
+        Ok(self.files)
+    }
+}
+
+/// The force as arrows over the picture, one every few pixels, the longest as long as their distance.
+fn arrows(picture: &Picture, force: &ForceField) -> RgbImage {
+    let (width, height) = picture.size();
+    let pitch = (width.max(height) / 40).max(4);
+    // so many pixels that an arrow is seen to be one
+    let zoom = (20.0 / pitch as f64).ceil();
+    let mut canvas = paint::enlarged(&paint::faded(&picture.display), zoom);
+    let largest = force.largest().max(f64::MIN_POSITIVE);
+    for row in (pitch / 2..height).step_by(pitch) {
+        for column in (pitch / 2..width).step_by(pitch) {
+            let at = DVec2::new(column as f64, row as f64);
+            // the root, so that weak forces are seen too
+            let f = force.at(at);
+            let length = (f.length() / largest).sqrt() * pitch as f64;
+            if length < 0.25 {
+                continue;
+            }
+            let tip = at + f.normalize_or_zero() * length;
+            let back = (at - tip) * 0.35;
+            let wing = back.perp() * 0.5;
+            for (a, b) in [
+                (at, tip),
+                (tip, tip + back + wing),
+                (tip, tip + back - wing),
+            ] {
+                paint::draw_curve(&mut canvas, &[a * zoom, b * zoom], false, 1.2, [230, 97, 1]);
+            }
+        }
+    }
+    canvas
+}
