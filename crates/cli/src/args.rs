@@ -37,6 +37,9 @@ pub(crate) struct Run {
     /// Another step than the scene's.
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub dt: Option<f64>,
+    /// Make every step in as many sub-steps as it takes for each to err by at most so many pixels.
+    #[arg(long, value_name = "PX", allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
     /// Another number of steps than the scene's (or, with a rule for rest, at most so many).
     #[arg(long, value_name = "N")]
     pub steps: Option<u64>,

@@ -25,7 +25,10 @@ pub(crate) fn run(args: &args::Run) -> Answer {
     if args.every == Some(0) {
         return Err(key("--every", "must be at least 1, got 0"));
     }
-    plan.dt = args.dt.unwrap_or(plan.dt);
+    if let Some(dt) = args.dt {
+        (plan.dt, plan.tolerance) = (dt, None);
+    }
+    plan.tolerance = args.tolerance.or(plan.tolerance);
     plan.until.steps = args.steps.unwrap_or(plan.until.steps);
     plan.force |= args.force;
     plan.recording.every = args.every.or(plan.recording.every);
@@ -45,6 +48,7 @@ pub(crate) fn run(args: &args::Run) -> Answer {
     let flags = [
         ("run.dt", "--dt", args.dt.is_some()),
         ("run.steps", "--steps", args.steps.is_some()),
+        ("run.tolerance", "--tolerance", args.tolerance.is_some()),
         ("run.scheme", "--scheme", args.scheme.is_some()),
         ("record.every", "--every", args.every.is_some()),
     ];
@@ -175,6 +179,9 @@ fn go(scene: &mut Scene, output: &Output, flags: &Flags<'_>) -> Answer {
     match outcome {
         Outcome::Diverged { .. } => say(&format!("{title}: {outcome}; no contour to write")),
         _ => say(&format!("{title}: {outcome}, t = {t:.6}")),
+    }
+    if let Some(pace) = &record.pace {
+        say(pace);
     }
     let short = matches!(outcome, Outcome::Finished { .. }) && scene.plan.until.rest.is_some();
     Ok(if outcome.is_good() && !short {

@@ -80,7 +80,11 @@ fn a_picture_of_one_pixel_or_one_row_is_one_without_a_force() {
         folder.write("c.csv", corner);
         let answer = folder.snake(&["fit", "a.pgm", "--from", "c.csv", "--out", "o.csv"]);
         if (width, height) == (3, 3) {
-            assert!(answer.err.contains("note: the picture is the same everywhere"));
+            assert!(
+                answer
+                    .err
+                    .contains("note: the picture is the same everywhere")
+            );
         } else {
             // no curve has room in it, and that is said
             assert_eq!(answer.code, Some(2), "{width}×{height}: {answer:?}");

@@ -287,7 +287,10 @@ fn numbers(bytes: &[u8]) -> (String, Vec<f64>) {
     let shape = head.split_once("'shape': ").unwrap().1;
     let shape = shape.split_once(')').unwrap().0.to_owned();
     let (words, _) = bytes[length..].as_chunks::<8>();
-    (shape, words.iter().map(|w| f64::from_le_bytes(*w)).collect())
+    (
+        shape,
+        words.iter().map(|w| f64::from_le_bytes(*w)).collect(),
+    )
 }
 
 #[test]
@@ -319,7 +322,11 @@ fn kinds_of_force_are_listed_refused_and_fitted_with() {
     let listed = folder.snake(&["list", "forces"]);
     assert_eq!((listed.code, listed.err.as_str()), (Some(0), ""));
     for kind in scene::FORCES {
-        assert!(listed.out.contains(&format!("{} ", kind.name)), "{}", kind.name);
+        assert!(
+            listed.out.contains(&format!("{} ", kind.name)),
+            "{}",
+            kind.name
+        );
         assert!(listed.out.contains(&format!("energy: {}", kind.energy)));
     }
     let widest = listed.out.lines().map(|line| line.chars().count()).max();
@@ -378,7 +385,14 @@ fn help_reads_well_and_names_every_flag() {
         ),
         (
             "field",
-            &["--out", "--sigma", "--passes", "--kind", "--all", "PNG, JPEG, TIFF"],
+            &[
+                "--out",
+                "--sigma",
+                "--passes",
+                "--kind",
+                "--all",
+                "PNG, JPEG, TIFF",
+            ],
         ),
         (
             "fit",

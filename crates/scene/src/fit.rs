@@ -156,6 +156,7 @@ impl Fit {
             plan: Plan {
                 scheme,
                 dt,
+                tolerance: None,
                 until: Until::at_rest(Rest::default(), self.steps),
                 start_rule: Start::SecondOrder,
                 force: false,

@@ -100,6 +100,8 @@ pub struct Record {
     pub events: Vec<String>,
     /// How it ended.
     pub outcome: Outcome,
+    /// What became of chosen sub-steps, and why they were no longer; for people, in no file.
+    pub pace: Option<String>,
 }
 
 /// The first line of a record in JSON Lines.
@@ -181,6 +183,7 @@ impl Record {
             frames: Vec::new(),
             events: Vec::new(),
             outcome: Outcome::Finished { step: 0 },
+            pace: None,
         }
     }
 

@@ -6,9 +6,10 @@ use std::sync::Arc;
 
 use field::ForceField;
 use glam::DVec2;
-use integrator::{Scheme, SchemeError, Start, State};
+use integrator::{Adaptive, Limit, Scheme, SchemeError, Start, State, Stepper};
 use snake::{Ledger, Outcome, Snake, Until};
 
+use crate::build::number;
 use crate::company::Company;
 use crate::limits::{MOST_KEPT, MOST_SCENE_BYTES, MOST_STEPS};
 use crate::record::{Frame, Record};
@@ -69,6 +70,9 @@ pub struct Plan {
     pub scheme: Scheme,
     /// The step. T.
     pub dt: f64,
+    /// Make every step in as many sub-steps as it takes for each to err by at most so many pixels; None for
+    /// steps of `dt` as they are.
+    pub tolerance: Option<f64>,
     /// When to stop.
     pub until: Until,
     /// How the first step is begun (D19).
@@ -185,8 +189,17 @@ impl Scene {
             );
             return Err(SceneError::key("densities.mass", message));
         }
+        if let Some(tolerance) = plan.tolerance {
+            number::above_zero("run.tolerance", tolerance)?;
+            if plan.scheme == Scheme::Report {
+                let message = "the scheme report cannot change its step; leapfrog would do";
+                return Err(SceneError::key("run.scheme", message));
+            }
+        }
+        // sub-steps stay below the limit by themselves
+        let force = plan.force || plan.tolerance.is_some();
         plan.scheme
-            .check(&self.snake, plan.dt, plan.force)
+            .check(&self.snake, plan.dt, force)
             .map_err(|e| refused(&e))
     }
 
@@ -205,10 +218,7 @@ impl Scene {
         }
         let plan = self.plan.clone();
         let mut state = self.start.clone();
-        let mut stepper = plan
-            .scheme
-            .start(&mut self.snake, &state, plan.dt, plan.start_rule)
-            .map_err(|e| refused(&e))?;
+        let mut pace = Pace::start(&plan, &mut self.snake, &state).map_err(|e| refused(&e))?;
         let keep = &plan.recording.sorted();
         let mut ledger = if keep.energies {
             let begun = Ledger::begin(&mut self.snake, &state);
@@ -223,7 +233,7 @@ impl Scene {
         let frames = &mut record.frames;
         let outcome = snake::run(
             &mut self.snake,
-            &mut *stepper,
+            pace.stepper(),
             &mut state,
             &plan.until,
             &mut |snake, state| {
@@ -247,7 +257,35 @@ impl Scene {
                 .push(Frame::of(&mut self.snake, &state, keep, ledger.as_ref()));
         }
         record.outcome = outcome;
+        if let Pace::Chosen(adaptive) = &pace {
+            record.pace = Some(adaptive.summary().to_string());
+        }
         Ok(record)
+    }
+}
+
+/// What makes the steps: one of the given length, or many that are chosen.
+enum Pace {
+    Fixed(Box<dyn Stepper>),
+    Chosen(Box<Adaptive>),
+}
+
+impl Pace {
+    fn start(plan: &Plan, snake: &mut Snake, state: &State) -> Result<Self, SchemeError> {
+        let Some(tolerance) = plan.tolerance else {
+            let stepper = plan.scheme.start(snake, state, plan.dt, plan.start_rule)?;
+            return Ok(Self::Fixed(stepper));
+        };
+        let limit = Limit::of(plan.scheme, snake);
+        let adaptive = Adaptive::new(plan.scheme, snake, state, plan.dt, tolerance, limit)?;
+        Ok(Self::Chosen(Box::new(adaptive)))
+    }
+
+    fn stepper(&mut self) -> &mut dyn Stepper {
+        match self {
+            Self::Fixed(stepper) => &mut **stepper,
+            Self::Chosen(adaptive) => &mut **adaptive,
+        }
     }
 }
 

@@ -76,8 +76,14 @@ fn strength_one_is_one_pull_for_every_kind_and_exposure_and_sigma() {
         for foreground in [40.0, 250.0] {
             let one = strongest(&scene(foreground, &format!("[[force]]\n{keys}")));
             let share = one / pull;
-            assert!((share - 1.0).abs() < within, "{keys}, {foreground}: {share}");
-            let half = strongest(&scene(foreground, &format!("[[force]]\n{keys}\nweight = 0.5")));
+            assert!(
+                (share - 1.0).abs() < within,
+                "{keys}, {foreground}: {share}"
+            );
+            let half = strongest(&scene(
+                foreground,
+                &format!("[[force]]\n{keys}\nweight = 0.5"),
+            ));
             assert!((half / one - 0.5).abs() < 1e-12, "{keys}");
         }
     }
@@ -94,10 +100,13 @@ fn every_kind_pulls_towards_the_edge_and_the_far_ones_from_afar() {
         ("vfc", 3.0),
     ] {
         let scene = scene(200.0, &format!("[[force]]\nkind = \"{kind}\""));
-        let [left, right] = [from, 63.0 - from]
-            .map(|x| force(scene.snake.world(), DVec2::new(x, 20.0)));
+        let [left, right] =
+            [from, 63.0 - from].map(|x| force(scene.snake.world(), DVec2::new(x, 20.0)));
         assert!(left.x > 0.5 && right.x < -0.5, "{kind}: {left} {right}");
-        assert!(left.y.abs() < 0.02 && right.y.abs() < 0.02, "{kind}: {left} {right}");
+        assert!(
+            left.y.abs() < 0.02 && right.y.abs() < 0.02,
+            "{kind}: {left} {right}"
+        );
     }
 }
 
@@ -105,7 +114,12 @@ fn every_kind_pulls_towards_the_edge_and_the_far_ones_from_afar() {
 fn the_usual_field_acts_where_it_is_written_or_nobody_else_looks() {
     let names = |lines: &str| {
         let scene = scene(200.0, lines);
-        scene.snake.world().names().map(str::to_owned).collect::<Vec<_>>()
+        scene
+            .snake
+            .world()
+            .names()
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
     };
     let gravity = "[[force]]\nkind = \"gravity\"\nacceleration = [0.0, 1.0]";
     assert_eq!(names(""), ["image"]);
@@ -129,50 +143,106 @@ fn what_will_not_do_is_refused_by_its_key() {
     for (keys, says) in [
         ("sigma = 2.0", &["line 10", "kind"][..]),
         ("kind = 3", &["kind", "word"]),
-        ("kind = \"egde\"", &["unknown word \"egde\"", "did you mean \"edge\""]),
-        ("kind = \"edge\"\nsgma = 2.0", &["unknown key \"sgma\"", "\"sigma\""]),
-        ("kind = \"edge\"\nweigth = 2.0", &["unknown key", "\"weight\""]),
+        (
+            "kind = \"egde\"",
+            &["unknown word \"egde\"", "did you mean \"edge\""],
+        ),
+        (
+            "kind = \"edge\"\nsgma = 2.0",
+            &["unknown key \"sgma\"", "\"sigma\""],
+        ),
+        (
+            "kind = \"edge\"\nweigth = 2.0",
+            &["unknown key", "\"weight\""],
+        ),
         ("kind = \"edge\"\nsigma = \"wide\"", &["wide"]),
-        ("kind = \"edge\"\nsigma = 0.0", &["force 1: sigma", "above 0"]),
-        ("kind = \"edge\"\nstrength = -1.0", &["force 1: strength", "above 0"]),
+        (
+            "kind = \"edge\"\nsigma = 0.0",
+            &["force 1: sigma", "above 0"],
+        ),
+        (
+            "kind = \"edge\"\nstrength = -1.0",
+            &["force 1: strength", "above 0"],
+        ),
         ("kind = \"edge\"\nweight = -1.0", &["force 1: weight", "-1"]),
-        ("kind = \"edge\"\nweight = [1.0]", &["force 1: weight", "5 nodes"]),
-        ("kind = \"edge\"\nschedule = []", &["force 1: schedule", "no entry"]),
-        ("kind = \"edge\"\nname = \"a b\"", &["force 1: name", "letters"]),
-        ("kind = \"edge\"\nname = \"tension\"", &["force 1: name", "taken"]),
-        ("kind = \"scales\"\nsigmas = []", &["force 1: sigmas", "1 to 32"]),
-        ("kind = \"scales\"\nsigmas = [2.0, -1.0]", &["force 1: sigmas"]),
-        ("kind = \"line\"\nshade = \"grey\"", &["unknown word \"grey\"", "bright"]),
+        (
+            "kind = \"edge\"\nweight = [1.0]",
+            &["force 1: weight", "5 nodes"],
+        ),
+        (
+            "kind = \"edge\"\nschedule = []",
+            &["force 1: schedule", "no entry"],
+        ),
+        (
+            "kind = \"edge\"\nname = \"a b\"",
+            &["force 1: name", "letters"],
+        ),
+        (
+            "kind = \"edge\"\nname = \"tension\"",
+            &["force 1: name", "taken"],
+        ),
+        (
+            "kind = \"scales\"\nsigmas = []",
+            &["force 1: sigmas", "1 to 32"],
+        ),
+        (
+            "kind = \"scales\"\nsigmas = [2.0, -1.0]",
+            &["force 1: sigmas"],
+        ),
+        (
+            "kind = \"line\"\nshade = \"grey\"",
+            &["unknown word \"grey\"", "bright"],
+        ),
         ("kind = \"termination\"\nfloor = 0.0", &["force 1: floor"]),
         ("kind = \"distance\"\nreach = nan", &["force 1: reach"]),
-        ("kind = \"gvf\"\nspread = 0.1\nsmoothness = 0.1", &["force 1: spread", "not both"]),
+        (
+            "kind = \"gvf\"\nspread = 0.1\nsmoothness = 0.1",
+            &["force 1: spread", "not both"],
+        ),
         ("kind = \"vfc\"\nwidth = 0.0", &["force 1: width"]),
-        ("kind = \"vfc\"\nwidth = 3.0\nexponent = 2.0", &["force 1: width", "not both"]),
+        (
+            "kind = \"vfc\"\nwidth = 3.0\nexponent = 2.0",
+            &["force 1: width", "not both"],
+        ),
         ("kind = \"gravity\"", &["acceleration"]),
-        ("kind = \"gravity\"\nacceleration = [inf, 0.0]", &["force 1: acceleration"]),
+        (
+            "kind = \"gravity\"\nacceleration = [inf, 0.0]",
+            &["force 1: acceleration"],
+        ),
     ] {
         refused(&second(keys), says);
     }
     let blind = text(200.0, "[[force]]\nkind = \"gvf\"");
     let (head, rest) = blind.split_once("[picture.drawn]").unwrap();
     let blind = format!("{head}{}", &rest[rest.find("[[force]]").unwrap()..]);
-    let error = Scene::parse("t", &blind, Path::new(".")).unwrap_err().to_string();
-    assert!(error.contains("force 0: kind") && error.contains("there is none"), "{error}");
+    let error = Scene::parse("t", &blind, Path::new("."))
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("force 0: kind") && error.contains("there is none"),
+        "{error}"
+    );
 }
 
 #[test]
 fn edges_between_colors_of_equal_grey_pull_only_in_color() {
     let folder = tempfile::tempdir().unwrap();
-    // 0.299 · 100 = 0.114 · 262, so not quite; green fills the rest
+    // 0.299 · 139 − 0.587 · 91 + 0.114 · 104 = 0
     let image = RgbImage::from_fn(64, 40, |x, _| {
-        image::Rgb(if x < 32 { [150, 100, 60] } else { [60, 146, 60] })
+        image::Rgb(if x < 32 {
+            [150, 100, 60]
+        } else {
+            [60, 146, 60]
+        })
     });
     let mut bytes = Cursor::new(Vec::new());
-    DynamicImage::ImageRgb8(image).write_to(&mut bytes, ImageFormat::Png).unwrap();
+    DynamicImage::ImageRgb8(image)
+        .write_to(&mut bytes, ImageFormat::Png)
+        .unwrap();
     std::fs::write(folder.path().join("a.png"), bytes.into_inner()).unwrap();
     let picture = Picture::load(&folder.path().join("a.png")).unwrap();
     assert!(picture.is_color() && picture.channels().len() == 3);
-    assert_eq!(picture.channels()[0][[3, 3]], 150.0);
+    assert_eq!(picture.channels()[0][[3, 3]], 10.0);
     let at = DVec2::new(28.0, 20.0);
     let pulls = |kind: &str| {
         let text = text(0.0, &format!("[[force]]\nkind = \"{kind}\""));
@@ -186,11 +256,11 @@ fn edges_between_colors_of_equal_grey_pull_only_in_color() {
         let field = acting.downcast::<ImageForce>().unwrap().field().clone();
         (field.at(at).x, scene.notes)
     };
-    assert!(pulls("color-edge").0 > 10.0);
-    // a level between both greys: the contrast of this picture is less than half a level
-    let ((grey, _), (color, notes)) = (pulls("edge"), pulls("color-edge"));
-    assert!(grey < 0.5 * color || grey > 0.0, "{grey} {color}");
-    assert!(notes.is_empty());
+    let ((grey, notes), (color, _)) = (pulls("edge"), pulls("color-edge"));
+    assert!(color > 10.0, "{color}");
+    // rounding of the grey levels at most
+    assert!(grey.abs() < 1e-10, "{grey}");
+    assert!(notes[0].contains("only forces in color"), "{notes:?}");
 }
 
 #[test]
@@ -201,7 +271,9 @@ fn pixels_that_do_not_count_exert_no_force() {
             image::Rgb(if x < from { [255; 3] } else { [0; 3] })
         });
         let mut bytes = Cursor::new(Vec::new());
-        DynamicImage::ImageRgb8(image).write_to(&mut bytes, ImageFormat::Png).unwrap();
+        DynamicImage::ImageRgb8(image)
+            .write_to(&mut bytes, ImageFormat::Png)
+            .unwrap();
         std::fs::write(folder.path().join(name), bytes.into_inner()).unwrap();
     };
     mask("left.png", (64, 40), 28);
@@ -213,7 +285,16 @@ fn pixels_that_do_not_count_exert_no_force() {
         Scene::parse("t", &text, folder.path())
     };
     // the edge at 31.5 is masked out, and the border of the mask is none
-    for kind in ["edge", "color-edge", "scales", "line", "termination", "distance", "gvf", "vfc"] {
+    for kind in [
+        "edge",
+        "color-edge",
+        "scales",
+        "line",
+        "termination",
+        "distance",
+        "gvf",
+        "vfc",
+    ] {
         let scene = parse("left.png", &format!("[[force]]\nkind = \"{kind}\"")).unwrap();
         assert_eq!(strongest(&scene), 0.0, "{kind}");
         assert_eq!(scene.notes.len(), 1, "{kind}: {:?}", scene.notes);

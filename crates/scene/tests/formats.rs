@@ -153,7 +153,10 @@ fn known_of(kind: &str) -> Vec<String> {
     let error = Scene::parse("x", &text, Path::new("."))
         .unwrap_err()
         .to_string();
-    assert!(error.contains("unknown key \"zzz\"; did you mean"), "{error}");
+    assert!(
+        error.contains("unknown key \"zzz\"; did you mean"),
+        "{error}"
+    );
     let list = error.split_once("(known: ").unwrap().1;
     let list = list.split_once(')').unwrap().0;
     list.split(", ").map(str::to_owned).collect()

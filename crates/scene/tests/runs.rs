@@ -207,3 +207,46 @@ fn same(got: &[f64], expected: &[f64]) {
     let bits = |list: &[f64]| list.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
     assert_eq!(bits(got), bits(expected));
 }
+
+#[test]
+fn chosen_sub_steps_end_where_short_ones_do_and_say_why() {
+    const ROD: &str = "title = \"t\"\n[snake]\nnodes = 9\ntopology = \"open\"\n\
+        start = { segment = { from = [0.0, 0.0], to = [8.0, 1.0] } }\n\
+        rest = { segment = { from = [0.0, 0.0], to = [7.0, 0.0] } }\n\
+        [material]\ntether = 0.1\ntension = 20.0\nrigidity = 5.0\n\
+        [densities]\nmass = 1.0\ndamping = 0.5\n[run]\n";
+    let rod = |plan: &str| Scene::parse("t", &format!("{ROD}{plan}\n"), Path::new("."));
+    let end = |plan: &str| {
+        let record = run(&mut rod(plan).unwrap());
+        (record.last().unwrap().nodes.clone(), record)
+    };
+    let (exact, slow) = end("dt = 0.0005\ntime = 5.0");
+    let (chosen, record) = end("dt = \"auto\"\ntolerance = 1e-5\noutput = 1.0\ntime = 5.0");
+    let off = exact.iter().zip(&chosen).map(|(a, b)| a.distance(*b));
+    // local errors of 1e-5 over some hundred sub-steps, damped as they add up
+    assert!(off.fold(0.0, f64::max) < 1e-3);
+    assert_eq!((record.outcome.step(), slow.pace), (5, None));
+    let pace = record.pace.unwrap();
+    assert!(
+        pace.contains("sub-steps of") && pace.contains("accuracy"),
+        "{pace}"
+    );
+    for (plan, says) in [
+        ("dt = \"auto\"\nsteps = 3", "run.output: is missing"),
+        (
+            "dt = \"auto\"\ntime = 1.0\ntolerance = 0.0",
+            "run.tolerance: ",
+        ),
+        (
+            "dt = 0.1\ntime = 1.0\noutput = 0.5",
+            "run.output: is for chosen",
+        ),
+        ("dt = \"quick\"\ntime = 1.0", "\"auto\""),
+    ] {
+        let error = rod(plan).unwrap_err().to_string();
+        assert!(error.contains(says), "{error}");
+    }
+    let report = "dt = \"auto\"\ntime = 1.0\nscheme = \"report\"";
+    let error = rod(report).unwrap().check().unwrap_err().to_string();
+    assert!(error.starts_with("run.scheme: "), "{error}");
+}

@@ -18,13 +18,7 @@ pub(super) fn plan(text: &SceneText, rules: Rules) -> Result<Plan, SceneError> {
         None if rules.scheme == Rule::Report => Scheme::Report,
         None => Scheme::Leapfrog,
     };
-    let dt = match run.dt {
-        StepText::Fixed(dt) => number::above_zero("run.dt", dt)?,
-        StepText::Auto => {
-            let message = "\"auto\" is not to be had yet; a number above 0 would do";
-            return Err(SceneError::key("run.dt", message));
-        }
-    };
+    let (dt, tolerance) = step(run)?;
     let until = Until {
         steps: steps(run, dt, rules)?,
         rest: run.rest.as_ref().map(rest).transpose()?,
@@ -36,11 +30,43 @@ pub(super) fn plan(text: &SceneText, rules: Rules) -> Result<Plan, SceneError> {
     Ok(Plan {
         scheme,
         dt,
+        tolerance,
         until,
         start_rule,
         force: run.force,
         recording: recording(&text.record)?,
     })
+}
+
+/// Largest error of a sub-step in pixels, unless given.
+const USUAL_TOLERANCE: f64 = 1e-3;
+
+/// The step, and the tolerance of its sub-steps if they are to be chosen.
+fn step(run: &RunText) -> Result<(f64, Option<f64>), SceneError> {
+    match run.dt {
+        StepText::Fixed(dt) => {
+            for (key, given) in [("run.tolerance", run.tolerance), ("run.output", run.output)] {
+                if given.is_some() {
+                    let message = "is for chosen steps; with it dt = \"auto\" would do";
+                    return Err(SceneError::key(key, message));
+                }
+            }
+            Ok((number::above_zero("run.dt", dt)?, None))
+        }
+        StepText::Auto => {
+            let tolerance = run.tolerance.unwrap_or(USUAL_TOLERANCE);
+            let tolerance = number::above_zero("run.tolerance", tolerance)?;
+            let output = match (run.output, run.time) {
+                (Some(output), _) => output,
+                (None, Some(time)) => time / 1000.0,
+                (None, None) => {
+                    let message = "is missing; the time between two steps would do";
+                    return Err(SceneError::key("run.output", message));
+                }
+            };
+            Ok((number::above_zero("run.output", output)?, Some(tolerance)))
+        }
+    }
 }
 
 fn steps(run: &RunText, dt: f64, rules: Rules) -> Result<u64, SceneError> {

@@ -341,6 +341,12 @@ pub(crate) struct RunText {
     #[serde(default)]
     pub scheme: Option<String>,
     pub dt: StepText,
+    /// Largest error of a sub-step, where they are chosen.
+    #[serde(default)]
+    pub tolerance: Option<f64>,
+    /// Time between steps, where sub-steps are chosen.
+    #[serde(default)]
+    pub output: Option<f64>,
     #[serde(default)]
     pub steps: Option<u64>,
     #[serde(default)]

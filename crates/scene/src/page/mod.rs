@@ -190,8 +190,16 @@ impl Sheet<'_> {
             format!("{note}. Largest force {largest:.3}, on average {mean:.3}."),
         );
         for (which, caption, image) in [
-            ("x", "x component (red right, blue left), by its root", paint::signed(&paint::rooted(&x))),
-            ("y", "y component (red down, blue up), by its root", paint::signed(&paint::rooted(&y))),
+            (
+                "x",
+                "x component (red right, blue left), by its root",
+                paint::signed(&paint::rooted(&x)),
+            ),
+            (
+                "y",
+                "y component (red down, blue up), by its root",
+                paint::signed(&paint::rooted(&y)),
+            ),
             (
                 "directions",
                 "direction as hue, length as depth",

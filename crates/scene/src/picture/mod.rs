@@ -199,11 +199,16 @@ impl Picture {
             let k = (n - 1) * part / 100;
             *levels.select_nth_unstable_by(k, f64::total_cmp).1
         };
+        let (least, largest) = (at(0), at(100));
+        // less than the rounding of colors to grey leaves
+        if largest - least <= 1e-12 * least.abs().max(largest.abs()) {
+            return 0.0;
+        }
         let spread = at(98) - at(2);
         if spread > 0.0 {
             spread
         } else {
-            at(100) - at(0)
+            largest - least
         }
     }
 

@@ -58,8 +58,16 @@ impl<'a> Sight<'a> {
 
     /// What to say of a picture without any contrast.
     pub(crate) fn note(&self) -> Option<String> {
-        (self.contrast <= 0.0)
-            .then(|| "the picture is the same everywhere: it exerts no force".to_owned())
+        let picture = self.picture;
+        if self.contrast > 0.0 {
+            None
+        } else if picture.channels().iter().any(|c| picture.contrast(c) > 0.0) {
+            Some(
+                "the picture has one grey everywhere: only forces in color see anything".to_owned(),
+            )
+        } else {
+            Some("the picture is the same everywhere: it exerts no force".to_owned())
+        }
     }
 
     /// The field of a kind; None for a kind that is none: it asks for the curve, or for no picture.
