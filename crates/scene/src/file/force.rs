@@ -177,6 +177,7 @@ pub(crate) struct DistanceText {
 pub(crate) struct GvfText {
     pub sigma: Option<f64>,
     pub strength: Option<f64>,
+    pub threshold: Option<f64>,
     pub smoothness: Option<f64>,
     pub spread: Option<f64>,
     pub knee: Option<f64>,
@@ -187,6 +188,7 @@ pub(crate) struct GvfText {
 pub(crate) struct VfcText {
     pub sigma: Option<f64>,
     pub strength: Option<f64>,
+    pub threshold: Option<f64>,
     pub exponent: Option<f64>,
     pub width: Option<f64>,
     pub reach: Option<f64>,

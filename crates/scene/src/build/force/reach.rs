@@ -1,6 +1,6 @@
 //! Kinds that carry edges far: to the nearest one, or by flow and convolution.
 
-use field::{Falloff, FlowRule, ForceField, Smoothing, VectorFlow};
+use field::{Falloff, FlowRule, ForceField, Grid, Smoothing, VectorFlow};
 
 use super::{At, Made, NORMAL_AT_0, number};
 use crate::SceneError;
@@ -10,15 +10,17 @@ use crate::limits::MOST_CONVOLUTION;
 /// Where the pull of a flow levels off, as a share of its largest.
 const USUAL_KNEE: f64 = 0.1;
 
+/// How steep an edge is at least, as a share of the steepest of one as high as the contrast.
+const USUAL_THRESHOLD: f64 = 0.25;
+
 impl At<'_> {
     pub(super) fn distance(&self, text: &DistanceText) -> Result<Made, SceneError> {
         let sigma = self.sigma(text.sigma, 2.0)?;
-        let share = self.above_zero("threshold", text.threshold, 0.25)?;
+        let threshold = self.threshold(text.threshold, sigma)?;
         let gain = self.pull(text.strength)?;
         let (width, height) = self.sight.picture.size();
         let far = (width + height) as f64;
         let reach = self.above_zero("reach", text.reach, far)?;
-        let threshold = share * NORMAL_AT_0 * self.sight.contrast() / sigma;
         let smoothed = self.smoothed(sigma)?;
         let edges = field::edge_pixels(&smoothed, Smoothing::Binomial(0), threshold);
         let mut edges = edges.map_err(self.refuse())?;
@@ -31,6 +33,28 @@ impl At<'_> {
             field: self.sight.grey.cut(&field).map_err(self.refuse())?,
             energy: Some(distance.mapv(|d| gain * d.sqrt().min(reach.min(far)))),
         })
+    }
+
+    /// A slope as a share of the steepest of an edge as high as the contrast.
+    fn threshold(&self, given: Option<f64>, sigma: f64) -> Result<f64, SceneError> {
+        let share = self.above_zero("threshold", given, USUAL_THRESHOLD)?;
+        Ok(share * NORMAL_AT_0 * self.sight.contrast() / sigma)
+    }
+
+    /// Edges from 0 to 1: `P² / (P² + T²)`, half at the threshold T, so that a weak edge is not outdone by a
+    /// strong one far off, and noise stays next to nothing.
+    fn edge_map(&self, given: Option<f64>, sigma: f64) -> Result<Grid, SceneError> {
+        let threshold = self.threshold(given, sigma)?;
+        let strength = self.edge_strength(sigma)?;
+        Ok(strength.mapv(|p| {
+            let square = (p / threshold) * (p / threshold);
+            // an infinite square is 1
+            if square > 1e15 {
+                1.0
+            } else {
+                square / (square + 1.0)
+            }
+        }))
     }
 
     pub(super) fn gvf(&self, text: &GvfText) -> Result<Made, SceneError> {
@@ -51,7 +75,8 @@ impl At<'_> {
             rule,
             residual: 1e-6,
         };
-        let flow = field::vector_flow(&self.edge_strength(sigma)?, &flow).map_err(self.refuse())?;
+        let flow = field::vector_flow(&self.edge_map(text.threshold, sigma)?, &flow)
+            .map_err(self.refuse())?;
         self.leveled(&flow.field, text.strength, text.knee)
     }
 
@@ -79,9 +104,7 @@ impl At<'_> {
             );
             return Err(SceneError::key(&self.key("reach"), message));
         }
-        let map = self.edge_strength(sigma)?;
-        let largest = map.iter().copied().fold(0.0, f64::max);
-        let map = map.mapv(|p| p / super::above_nothing(largest));
+        let map = self.edge_map(text.threshold, sigma)?;
         let field = field::vector_convolution(&map, falloff, reach).map_err(self.refuse())?;
         self.leveled(&field, text.strength, text.knee)
     }
