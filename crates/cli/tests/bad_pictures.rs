@@ -79,17 +79,16 @@ fn a_picture_of_one_pixel_or_one_row_is_one_without_a_force() {
         let corner = format!("0,0\n{0},0\n{0},{1}\n0,{1}\n", width - 1, height - 1);
         folder.write("c.csv", corner);
         let answer = folder.snake(&["fit", "a.pgm", "--from", "c.csv", "--out", "o.csv"]);
-        if (width, height) == (3, 3) {
-            assert!(
-                answer
-                    .err
-                    .contains("note: the picture is the same everywhere")
-            );
-        } else {
-            // no curve has room in it, and that is said
-            assert_eq!(answer.code, Some(2), "{width}×{height}: {answer:?}");
-            assert_eq!(answer.err.lines().count(), 1, "{answer:?}");
-        }
+        // there may be no room for a curve: refused, or run against the border; both are said
+        assert!(
+            answer.code.is_some_and(|code| code < 3),
+            "{width}×{height}: {answer:?}"
+        );
+        assert!(!answer.err.contains("panicked"), "{answer:?}");
+        let noted = answer
+            .err
+            .contains("note: the picture is the same everywhere");
+        assert!(noted || answer.code == Some(2), "{answer:?}");
     }
     picture("a.pgm", b"P5 0 9 255\n", &["would do"]);
 }

@@ -191,6 +191,10 @@ impl Scene {
         }
         if let Some(tolerance) = plan.tolerance {
             number::above_zero("run.tolerance", tolerance)?;
+            if self.company.is_some() {
+                let message = "\"auto\" is for one snake without upkeep; a number would do";
+                return Err(SceneError::key("run.dt", message));
+            }
             if plan.scheme == Scheme::Report {
                 let message = "the scheme report cannot change its step; leapfrog would do";
                 return Err(SceneError::key("run.scheme", message));

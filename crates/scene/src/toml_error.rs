@@ -30,6 +30,12 @@ pub(crate) fn read<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Scen
 /// A message of serde's, with the nearest known key where it names an unknown one.
 fn helpful(message: &str) -> String {
     let message = message.trim();
+    // a list says which of its entries it is about
+    if let Some((entry, rest)) = message.split_once(": ")
+        && entry.starts_with("force ")
+    {
+        return format!("{entry}: {}", helpful(rest));
+    }
     let mut quoted = message.split('`').skip(1).step_by(2);
     let unknown = message.starts_with("unknown field") || message.starts_with("unknown variant");
     match (unknown, quoted.next()) {

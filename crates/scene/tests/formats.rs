@@ -121,8 +121,10 @@ fn known(place: &str) -> Vec<String> {
     let wrong = match place {
         "rule" | "up" | "end" | "border" | "kind" => "\"zzz\" #",
         "topology" => "\"zzz\" #",
-        "root" | "view" | "picture" | "drawn" | "field" | "snake" | "material" | "densities" | "schedule"
-        | "world" | "wall" | "run" | "record" | "also" | "contact" | "upkeep" => "zzz = 1",
+        "root" | "view" | "picture" | "drawn" | "field" | "snake" | "material" | "densities"
+        | "schedule" | "world" | "wall" | "run" | "record" | "also" | "contact" | "upkeep" => {
+            "zzz = 1"
+        }
         "region" | "shape" | "law" => "zzz = 1 } #",
         _ => "zzz = 1,",
     };

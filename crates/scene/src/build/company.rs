@@ -43,7 +43,9 @@ pub(super) fn company(
         let surroundings = if same {
             first.world().clone()
         } else {
-            world::world(&own, rules, picture, None, shape.len()).map_err(within)?
+            let mut unsaid = Vec::new();
+            let world = world::world(&own, rules, picture, shape.len(), &mut unsaid);
+            world.map_err(within)?.0
         };
         let snake = Snake::new(shape, surroundings).map_err(|e| within(refused("snake", &e)))?;
         match &also.at {

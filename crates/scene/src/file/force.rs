@@ -1,10 +1,9 @@
 //! `[[force]]`: one force of the world, by its kind.
 
-use serde::de::Error as _;
+use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
 use super::ProfileText;
-use super::forms::inner;
 
 /// One `[[force]]`: its kind with the keys of that kind, and what every kind has.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,7 +54,7 @@ macro_rules! kinds {
 }
 
 kinds![
-    "edge" Edge(EdgeText),
+    "edge" Edge(StrengthText),
     "color-edge" ColorEdge(StrengthText),
     "scales" Scales(ScalesText),
     "line" Line(LineText),
@@ -67,16 +66,16 @@ kinds![
 ];
 
 /// As serde says it, so that all such messages are one.
-fn unknown<E: serde::de::Error>(what: &str, word: &str, known: &[&str]) -> E {
+fn unknown<E: Error>(what: &str, word: &str, known: &[&str]) -> E {
     E::custom(format!(
         "unknown {what} `{word}`, expected one of `{}`",
         known.join("`, `")
     ))
 }
 
-impl<'de> Deserialize<'de> for ForceText {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let mut keys = toml::Table::deserialize(deserializer)?;
+impl ForceText {
+    /// Read one table.
+    fn read(mut keys: toml::Table) -> Result<Self, toml::de::Error> {
         let mut common = toml::Table::new();
         let word = keys.remove(COMMON[0]);
         for key in &COMMON[1..] {
@@ -88,9 +87,9 @@ impl<'de> Deserialize<'de> for ForceText {
             Some(toml::Value::String(word)) => word,
             Some(other) => {
                 let message = format!("kind: expected a word, got {other}");
-                return Err(D::Error::custom(message));
+                return Err(Error::custom(message));
             }
-            None => return Err(D::Error::missing_field(COMMON[0])),
+            None => return Err(Error::missing_field(COMMON[0])),
         };
         let kind = KindText::read(&word, keys).map_err(|error| {
             let message = error.message();
@@ -101,28 +100,31 @@ impl<'de> Deserialize<'de> for ForceText {
                 let known: Vec<&str> = COMMON.into_iter().chain(own).collect();
                 unknown("field", given, &known)
             } else {
-                D::Error::custom(message)
+                error
             }
         })?;
-        let common = inner(toml::Value::Table(common))?;
+        let common = CommonText::deserialize(common)?;
         Ok(Self { kind, common })
     }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum PolarityText {
-    Either,
-    DarkToBright,
-    BrightToDark,
+impl<'de> Deserialize<'de> for ForceText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let keys = toml::Table::deserialize(deserializer)?;
+        Self::read(keys).map_err(|error| D::Error::custom(error.message()))
+    }
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct EdgeText {
-    pub sigma: Option<f64>,
-    pub strength: Option<f64>,
-    pub polarity: Option<PolarityText>,
+/// All of a scene's forces; a message says which one it is about.
+pub(super) fn forces<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Vec<ForceText>, D::Error> {
+    let tables = Vec::<toml::Table>::deserialize(deserializer)?;
+    let read = |(i, keys)| {
+        ForceText::read(keys)
+            .map_err(|error| D::Error::custom(format!("force {i}: {}", error.message())))
+    };
+    tables.into_iter().enumerate().map(read).collect()
 }
 
 /// A kind that needs no more than a smoothing and a strength.

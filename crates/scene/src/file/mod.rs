@@ -32,7 +32,7 @@ pub(crate) struct SceneText {
     pub picture: Option<PictureText>,
     #[serde(default)]
     pub field: Option<FieldText>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "force::forces")]
     pub force: Vec<ForceText>,
     pub snake: SnakeText,
     #[serde(default)]

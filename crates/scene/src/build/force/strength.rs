@@ -5,7 +5,7 @@ use field::{EdgeForce, Line, Smoothing};
 use super::{At, Made, NORMAL_AT_0, NORMAL_AT_1, above_nothing};
 use crate::SceneError;
 use crate::build::smoothing;
-use crate::file::{EdgeText, LineText, ScalesText, ShadeText, StrengthText, TerminationText};
+use crate::file::{LineText, ScalesText, ShadeText, StrengthText, TerminationText};
 
 /// What is smoothed already.
 const AS_IT_IS: Smoothing = Smoothing::Binomial(0);
@@ -17,7 +17,7 @@ pub(super) const USUAL_SIGMA: f64 = 3.162_277_660_168_379_5;
 const MOST_SCALES: usize = 32;
 
 impl At<'_> {
-    pub(super) fn edge(&self, text: &EdgeText) -> Result<Made, SceneError> {
+    pub(super) fn edge(&self, text: &StrengthText) -> Result<Made, SceneError> {
         let sigma = self.sigma(text.sigma, USUAL_SIGMA)?;
         let gain = self.edge_gain(text.strength, sigma, self.sight.contrast())?;
         self.climbing(&self.edge_strength(sigma)?, gain)
