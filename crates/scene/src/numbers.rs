@@ -58,7 +58,6 @@ pub fn float_tiff(grids: &[&Grid]) -> Result<Vec<u8>, SceneError> {
             .write_image::<colortype::Gray32Float>(width, height, &numbers)
             .map_err(|e| refuse(&e))?;
     }
-    drop(encoder);
     Ok(bytes.into_inner())
 }
 

@@ -1,5 +1,6 @@
 //! Forces by their kind: in units a person can set, refused by their key, on what counts.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
+#![allow(clippy::float_cmp, reason = "a test: equal means equal")]
 
 use std::io::Cursor;
 use std::path::Path;
