@@ -180,7 +180,7 @@ impl Crowd {
                 });
             }
         }
-        crowd.meet()?;
+        crowd.meet(None)?;
         Ok(crowd)
     }
 
@@ -268,7 +268,7 @@ impl Crowd {
         }
         self.step += 1;
         self.t = self.members.first().map_or(self.t, |member| member.state.t);
-        self.meet()?;
+        self.meet(Some(self.timing.dt))?;
         self.kick(half)?;
         if self.upkeep.is_due(self.step) {
             self.keep_up()?;
@@ -315,12 +315,12 @@ impl Crowd {
         }
     }
 
-    /// Find who touches whom.
-    fn meet(&mut self) -> Result<(), CrowdError> {
-        match &self.contact {
-            Some(contact) => self.meetings.find(contact, &self.members),
-            None => Ok(()),
+    /// Find who touches whom, so long after the last time.
+    fn meet(&mut self, since: Option<f64>) -> Result<(), CrowdError> {
+        if let Some(contact) = &self.contact {
+            self.lost += self.meetings.find(contact, &self.members, since)?;
         }
+        Ok(())
     }
 
     /// Let the contacts push for that long.

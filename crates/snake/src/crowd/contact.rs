@@ -52,6 +52,8 @@ struct Meeting {
     along: f64,
     /// Above 0.
     depth: f64,
+    /// How much of the depth pushes: all but what came by a jump.
+    felt: f64,
     /// From the edge to where the node should be.
     way: DVec2,
 }
@@ -62,6 +64,8 @@ pub(super) struct Meetings {
     neighbours: Neighbours,
     found: Vec<Near>,
     list: Vec<Meeting>,
+    /// The list of the step before, in the same order: by curve, node and other curve.
+    before: Vec<Meeting>,
     kicked: Vec<bool>,
     push: Vec<DVec2>,
 }
@@ -96,8 +100,19 @@ impl Contact {
 }
 
 impl Meetings {
-    /// Find every node within the layer of another curve. Linear in the nodes.
-    pub(super) fn find(&mut self, contact: &Contact, members: &[Member]) -> Result<(), CrowdError> {
+    /// Find every node within the layer of another curve, so long after the last time; None: for the first
+    /// time. Linear in the nodes. Answers what was lost.
+    ///
+    /// A node deep inside whose nearest edge is suddenly another one, on another side, would have its energy jump.
+    /// What depth it gains by more than its motion since then can explain does not push; the energy of what
+    /// depth it loses so is lost.
+    pub(super) fn find(
+        &mut self,
+        contact: &Contact,
+        members: &[Member],
+        since: Option<f64>,
+    ) -> Result<f64, CrowdError> {
+        std::mem::swap(&mut self.list, &mut self.before);
         self.list.clear();
         self.kicked.clear();
         self.kicked.resize(members.len(), false);
@@ -145,6 +160,7 @@ impl Meetings {
                             ends: [near.spot.edge, (near.spot.edge + 1) % n],
                             along: near.spot.along,
                             depth,
+                            felt: depth,
                             way,
                         });
                     }
@@ -152,7 +168,38 @@ impl Meetings {
             }
         }
         self.found = found;
-        Ok(())
+        Ok(since.map_or(0.0, |dt| self.smooth(contact, members, dt)))
+    }
+
+    /// Take jumps out of what is felt; the energy that they took.
+    fn smooth(&mut self, contact: &Contact, members: &[Member], dt: f64) -> f64 {
+        let key = |m: &Meeting| (m.curve, m.node, m.other);
+        let mut lost = 0.0;
+        let mut old = 0;
+        let energy = |m: &Meeting, felt: f64| {
+            0.5 * contact.stiffness * members[m.curve].snake.body().spacing * felt * felt
+        };
+        for m in &mut self.list {
+            while old < self.before.len() && key(&self.before[old]) < key(m) {
+                lost += gone(&self.before[old], members, dt, &energy);
+                old += 1;
+            }
+            let reach = 2.0 * dt * relative(m, members).length();
+            let same = self.before.get(old).filter(|b| key(b) == key(m));
+            let (felt, depth) = same.map_or((0.0, 0.0), |b| (b.felt, b.depth));
+            old += usize::from(same.is_some());
+            // what the depth has changed by, as far as motion explains it
+            let change = (m.depth - depth).clamp(-reach, reach);
+            m.felt = (felt + change).clamp(0.0, m.depth);
+            let jump = felt + change - m.felt;
+            if jump > 0.0 {
+                lost += energy(m, m.felt + jump) - energy(m, m.felt);
+            }
+        }
+        for m in &self.before[old..] {
+            lost += gone(m, members, dt, &energy);
+        }
+        lost
     }
 
     /// Push for that long, meeting after meeting; what damping and friction take.
@@ -194,11 +241,9 @@ impl Meetings {
             return 0.0;
         }
         let length = members[m.curve].snake.body().spacing;
-        let v = |curve: usize, node: usize| members[curve].state.v[node];
-        let relative =
-            v(m.curve, m.node) - shares[0] * v(m.other, first) - shares[1] * v(m.other, second);
+        let relative = relative(&m, members);
         let normal = relative.dot(m.way);
-        let push = contact.stiffness * m.depth * length * time;
+        let push = contact.stiffness * m.felt * length * time;
         // the damper never pulls curves together, nor turns their motion round
         let damp = -contact.damping * length * time * normal;
         let most = normal.abs() / total;
@@ -242,7 +287,7 @@ impl Meetings {
         self.push.clear();
         self.push.resize(n, DVec2::ZERO);
         for m in self.list.iter().filter(|m| m.curve == k || m.other == k) {
-            let force = contact.stiffness * m.depth * m.way;
+            let force = contact.stiffness * m.felt * m.way;
             if m.curve == k {
                 self.push[m.node] += force;
             }
@@ -258,13 +303,29 @@ impl Meetings {
 
     /// What the layers hold.
     pub(super) fn energy(&self, contact: &Contact, members: &[Member]) -> f64 {
-        let each = |m: &Meeting| members[m.curve].snake.body().spacing * m.depth * m.depth;
+        let each = |m: &Meeting| members[m.curve].snake.body().spacing * m.felt * m.felt;
         0.5 * contact.stiffness * self.list.iter().map(each).sum::<f64>()
     }
 
     /// How deep in the layer the deepest node is.
     pub(super) fn deepest(&self) -> f64 {
         self.list.iter().map(|m| m.depth).fold(0.0, f64::max)
+    }
+}
+
+/// Velocity of the node against the edge.
+fn relative(m: &Meeting, members: &[Member]) -> DVec2 {
+    let v = |curve: usize, node: usize| members[curve].state.v[node];
+    v(m.curve, m.node) - (1.0 - m.along) * v(m.other, m.ends[0]) - m.along * v(m.other, m.ends[1])
+}
+
+/// What the end of a meeting takes: nothing if it was on its way out.
+fn gone(m: &Meeting, members: &[Member], dt: f64, energy: &impl Fn(&Meeting, f64) -> f64) -> f64 {
+    let reach = 2.0 * dt * relative(m, members).length();
+    if m.felt > reach {
+        energy(m, m.felt)
+    } else {
+        0.0
     }
 }
 

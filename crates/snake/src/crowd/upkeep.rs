@@ -156,7 +156,7 @@ impl Crowd {
             changed |= self.respace(stretch)?;
         }
         if changed {
-            self.meet()?;
+            self.meet(None)?;
         }
         self.taken += before - self.energies().total();
         Ok(())
