@@ -79,7 +79,9 @@ pub(crate) struct Watch {
     /// Farthest from the mark in this window, and how near it came again afterwards.
     far: f64,
     near: f64,
-    /// The same of the windows before that went to and fro.
+    /// The box each node has been in during this window.
+    boxes: Vec<(DVec2, DVec2)>,
+    /// The longest diagonal of such a box, window by window, while the curve goes to and fro.
     swings: Vec<f64>,
     net: Vec<DVec2>,
     one: Vec<DVec2>,
@@ -100,6 +102,7 @@ impl Watch {
             strongest: 0.0,
             far: 0.0,
             near: f64::INFINITY,
+            boxes: state.x.iter().map(|&x| (x, x)).collect(),
             swings: Vec::new(),
             net: vec![DVec2::ZERO; n],
             one: vec![DVec2::ZERO; n],
@@ -120,8 +123,10 @@ impl Watch {
         self.looks += 1;
         self.liveliest = self.liveliest.max(kinetic(snake, state));
         let mut away = 0.0_f64;
-        for (x, mark) in state.x.iter().zip(&self.mark) {
+        let nodes = state.x.iter().zip(&self.mark).zip(&mut self.boxes);
+        for ((x, mark), (low, high)) in nodes {
             away = away.max(x.distance_squared(*mark));
+            (*low, *high) = (low.min(*x), high.max(*x));
         }
         let away = away.sqrt();
         if away > self.far {
@@ -143,6 +148,9 @@ impl Watch {
         self.since = state.t;
         self.late = None;
         (self.far, self.near) = (0.0, f64::INFINITY);
+        for (seen, &x) in self.boxes.iter_mut().zip(&state.x) {
+            *seen = (x, x);
+        }
         Some(verdict)
     }
 
@@ -164,7 +172,8 @@ impl Watch {
         }
         // to and fro: it was far and came back, window after window, and always as far
         if self.near < 0.25 * self.far && self.far > most {
-            self.swings.push(self.far);
+            let boxes = self.boxes.iter().map(|(low, high)| low.distance(*high));
+            self.swings.push(boxes.fold(0.0, f64::max));
         } else {
             self.swings.clear();
         }
