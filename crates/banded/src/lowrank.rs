@@ -40,11 +40,21 @@ impl LowRank {
     }
 }
 
-/// `Σ u[i] x[i]`.
+/// `Σ u[i] x[i]`, in four sums that do not wait for each other.
 fn dot<V: Node<f64>>(u: &[f64], x: &[V]) -> V {
-    x.iter()
-        .zip(u)
-        .fold(V::default(), |sum, (&x, &u)| sum + x * u)
+    let (u, u_rest) = u.as_chunks::<4>();
+    let (x, x_rest) = x.as_chunks::<4>();
+    let mut sums = [V::default(); 4];
+    for (u, x) in u.iter().zip(x) {
+        for k in 0..4 {
+            sums[k] = sums[k] + x[k] * u[k];
+        }
+    }
+    let whole = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    x_rest
+        .iter()
+        .zip(u_rest)
+        .fold(whole, |sum, (&x, &u)| sum + x * u)
 }
 
 /// A small square matrix, row by row, times a vector.
@@ -103,7 +113,14 @@ impl<E: Copy> Correction<E> {
         for (along, column) in along.iter_mut().zip(&self.columns) {
             *along = dot(column, x);
         }
-        for (column, along) in self.solved.iter().zip(weighted(&self.middle, along)) {
+        let weights = weighted(&self.middle, along);
+        if let ([p, q], [s, t, ..]) = (self.solved.as_slice(), weights) {
+            for (x, (&p, &q)) in x.iter_mut().zip(p.iter().zip(q)) {
+                *x = (*x - s * p) - t * q;
+            }
+            return;
+        }
+        for (column, along) in self.solved.iter().zip(weights) {
             for (x, &z) in x.iter_mut().zip(column) {
                 *x = *x - along * z;
             }

@@ -97,13 +97,13 @@ impl Euler {
     fn place(&mut self, x: &[DVec2]) -> bool {
         let rate = 1.0 / self.clock.dt;
         let to = [&mut self.next_x[..], &mut self.next_v[..]];
-        four::each([x, &self.force], to, |[x, step]| {
+        four::two_to_two([x, &self.force], to, |x, step| {
             let (mut place, mut speed) = ([0.0; 8], [0.0; 8]);
             for k in 0..8 {
                 place[k] = x[k] + step[k];
                 speed[k] = step[k] * rate;
             }
-            [place, speed]
+            (place, speed)
         })
     }
 

@@ -42,44 +42,61 @@ impl Finite {
     }
 }
 
-/// `to = f(a, b, …)` for slices of one length, `f` taking and giving eight numbers; true if `check`ed results are
-/// finite. The last few points go round with zeros beside them.
+/// The last few points, with zeros beside them.
+fn padded(rest: &[DVec2]) -> Eight {
+    let mut four = [DVec2::ZERO; 4];
+    four[..rest.len()].copy_from_slice(rest);
+    numbers(&four)
+}
+
+/// `p, q = f(a, b, c)` for slices of one length; true if all of `p` is finite.
 #[inline(always)]
-pub(crate) fn each<const IN: usize, const OUT: usize>(
-    from: [&[DVec2]; IN],
-    mut to: [&mut [DVec2]; OUT],
-    work: impl Fn([Eight; IN]) -> [Eight; OUT],
+pub(crate) fn three_to_two(
+    [a, b, c]: [&[DVec2]; 3],
+    [p, q]: [&mut [DVec2]; 2],
+    work: impl Fn(Eight, Eight, Eight) -> (Eight, Eight),
 ) -> bool {
-    let n = to[0].len();
+    let (a, a_rest) = a.as_chunks::<4>();
+    let (b, b_rest) = b.as_chunks::<4>();
+    let (c, c_rest) = c.as_chunks::<4>();
+    let (p, p_rest) = p.as_chunks_mut::<4>();
+    let (q, q_rest) = q.as_chunks_mut::<4>();
     let mut finite = Finite::default();
-    let whole = n / 4 * 4;
-    let from = from.map(|slice| &slice[..n]);
-    let mut at = 0;
-    while at < whole {
-        let read = from.map(|slice| match slice[at..].first_chunk::<4>() {
-            Some(four) => numbers(four),
-            None => [0.0; 8],
-        });
-        let made = work(read);
-        finite.see(&made[0]);
-        for (slice, made) in to.iter_mut().zip(made) {
-            if let Some(four) = slice[at..].first_chunk_mut::<4>() {
-                *four = points(made);
-            }
-        }
-        at += 4;
+    for ((((a, b), c), p), q) in a.iter().zip(b).zip(c).zip(p).zip(q) {
+        let (place, speed) = work(numbers(a), numbers(b), numbers(c));
+        finite.see(&place);
+        (*p, *q) = (points(place), points(speed));
     }
-    if whole < n {
-        let read = from.map(|slice| {
-            let mut four = [DVec2::ZERO; 4];
-            four[..n - whole].copy_from_slice(&slice[whole..]);
-            numbers(&four)
-        });
-        let made = work(read);
-        finite.see(&made[0]);
-        for (slice, made) in to.iter_mut().zip(made) {
-            slice[whole..].copy_from_slice(&points(made)[..n - whole]);
-        }
-    }
+    let (place, speed) = work(padded(a_rest), padded(b_rest), padded(c_rest));
+    finite.see(&place);
+    p_rest.copy_from_slice(&points(place)[..p_rest.len()]);
+    q_rest.copy_from_slice(&points(speed)[..q_rest.len()]);
     finite.all()
+}
+
+/// `p, q = f(a, b)` for slices of one length; true if all of `p` is finite.
+#[inline(always)]
+pub(crate) fn two_to_two(
+    [a, b]: [&[DVec2]; 2],
+    [p, q]: [&mut [DVec2]; 2],
+    work: impl Fn(Eight, Eight) -> (Eight, Eight),
+) -> bool {
+    three_to_two([a, b, b], [p, q], |a, b, _| work(a, b))
+}
+
+/// `p = f(a, b, p)` for slices of one length.
+#[inline(always)]
+pub(crate) fn two_into(
+    [a, b]: [&[DVec2]; 2],
+    p: &mut [DVec2],
+    work: impl Fn(Eight, Eight, Eight) -> Eight,
+) {
+    let (a, a_rest) = a.as_chunks::<4>();
+    let (b, b_rest) = b.as_chunks::<4>();
+    let (p, p_rest) = p.as_chunks_mut::<4>();
+    for ((a, b), p) in a.iter().zip(b).zip(p) {
+        *p = points(work(numbers(a), numbers(b), numbers(p)));
+    }
+    let last = work(padded(a_rest), padded(b_rest), padded(p_rest));
+    p_rest.copy_from_slice(&points(last)[..p_rest.len()]);
 }

@@ -107,13 +107,13 @@ impl Leapfrog {
         let (v, force, coefficients) = (&v[..n], &self.force[..n], &self.coefficients[..n]);
         let (half, next) = (&mut self.half[..n], &mut self.next[..n]);
         let finite = if let Some(c) = self.common {
-            four::each([x, v, force], [&mut *next, half], |[x, v, force]| {
+            four::three_to_two([x, v, force], [&mut *next, half], |x, v, force| {
                 let (mut place, mut speed) = ([0.0; 8], [0.0; 8]);
                 for k in 0..8 {
                     speed[k] = c.keep * v[k] + c.kick * force[k];
                     place[k] = x[k] + dt * speed[k];
                 }
-                [place, speed]
+                (place, speed)
             })
         } else {
             let mut finite = true;
@@ -141,12 +141,12 @@ impl Leapfrog {
         let (half, force) = (&self.half[..n], &self.force[..n]);
         let coefficients = &self.coefficients[..n];
         if let Some(c) = self.common {
-            four::each([half, force], [v], |[half, force]| {
+            four::two_into([half, force], v, |half, force, _| {
                 let mut speed = [0.0; 8];
                 for k in 0..8 {
                     speed[k] = c.settle * (half[k] + c.kick * force[k]);
                 }
-                [speed]
+                speed
             });
             return;
         }

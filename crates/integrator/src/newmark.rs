@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::contact::{Contacts, Moment, Pace};
 use crate::solver::Solver;
 use crate::stepper::{self, Clock, Mass};
-use crate::{Fault, SchemeError, State, Stepper, System};
+use crate::{Fault, SchemeError, State, Stepper, System, four};
 
 /// Generalized-α: Newmark's method with as much damping of the highest frequencies as is asked for.
 ///
@@ -209,7 +209,8 @@ pub(crate) struct Newmark {
     clock: Clock,
     solver: Solver,
     force: Vec<DVec2>,
-    external: Vec<DVec2>,
+    /// Velocities at the end.
+    late: Vec<DVec2>,
     next_x: Vec<DVec2>,
     next_v: Vec<DVec2>,
     contacts: Contacts,
@@ -241,7 +242,7 @@ impl Newmark {
             clock: Clock::new(state, dt),
             solver: Solver::new(name, need, system, weights)?,
             force: zeros(),
-            external: zeros(),
+            late: zeros(),
             next_x: zeros(),
             next_v: zeros(),
             contacts: Contacts::new(state.len()),
@@ -272,26 +273,41 @@ impl Newmark {
     /// The same step at another's time `t`, which the other counts.
     fn take(&mut self, system: &mut dyn System, t: f64, state: &mut State) -> Result<(), Fault> {
         let dt = self.clock.dt;
-        system.elastic(&state.x, &mut self.force);
-        for i in 0..state.len() {
-            let held = system.held()[i];
-            self.next_v[i] = if held { DVec2::ZERO } else { state.v[i] };
-            self.next_x[i] = state.x[i] + 0.5 * dt * self.next_v[i];
-        }
+        let n = state.len();
         let (x, v) = (&mut self.next_x, &mut self.next_v);
-        stepper::external(system, t + 0.5 * dt, x, v, &mut self.external)?;
-        let mass = system.mass();
-        for i in 0..state.len() {
-            let push = self.force[i] + self.external[i];
-            self.force[i] = 2.0 * push + 4.0 / dt * mass[i] * v[i];
+        v.copy_from_slice(&state.v);
+        stepper::release(system.held(), v);
+        four::two_into([&state.x, v], x, |x, v, mut middle| {
+            for k in 0..8 {
+                middle[k] = x[k] + 0.5 * dt * v[k];
+            }
+            middle
+        });
+        system.elastic(&state.x, &mut self.force);
+        system.external(t + 0.5 * dt, x, v, &mut self.force)?;
+        {
+            let (mass, rate) = (&system.mass()[..n], 4.0 / dt);
+            let (force, v) = (&mut self.force[..n], &v[..n]);
+            for i in 0..n {
+                force[i] = 2.0 * force[i] + (rate * mass[i]) * v[i];
+            }
         }
         stepper::release(system.held(), &mut self.force);
         self.solver.solve(&mut self.force);
-        for i in 0..state.len() {
-            x[i] = state.x[i] + self.force[i];
-            v[i] = 2.0 / dt * self.force[i] - v[i];
+        let rate = 2.0 / dt;
+        let to = [&mut x[..], &mut self.late[..]];
+        let finite = four::three_to_two([&state.x, &self.force, v], to, |x, step, v| {
+            let (mut place, mut speed) = ([0.0; 8], [0.0; 8]);
+            for k in 0..8 {
+                place[k] = x[k] + step[k];
+                speed[k] = rate * step[k] - v[k];
+            }
+            (place, speed)
+        });
+        if !finite {
+            stepper::finite(x)?;
         }
-        stepper::finite(x)?;
+        std::mem::swap(v, &mut self.late);
         let moment = Moment {
             t: t + dt,
             dt,
