@@ -102,7 +102,7 @@ fn a_record_goes_to_a_csv_file_by_its_name() {
     );
     assert_eq!(
         lines[1],
-        "step,t,node,x,y,vx,vy,kinetic,tether,tension,rigidity,gravity,wall,damping,contact,parameters,total"
+        "step,t,node,x,y,vx,vy,kinetic,tether,tension,rigidity,gravity,wall,damping,contact,parameters,hand,total"
     );
     assert_eq!(lines.len(), 2 + 3 * 40);
     assert!(
@@ -112,7 +112,7 @@ fn a_record_goes_to_a_csv_file_by_its_name() {
     );
     for line in &lines[2..] {
         let numbers: Vec<f64> = line.split(',').map(|word| word.parse().unwrap()).collect();
-        assert_eq!(numbers.len(), 17);
+        assert_eq!(numbers.len(), 18);
     }
     // the same record as JSON Lines, and the same bytes twice
     for name in ["a.jsonl", "b.jsonl"] {

@@ -56,6 +56,18 @@ impl SignedEdge {
         })
     }
 
+    /// The gradient of the smoothed picture.
+    #[must_use]
+    pub const fn gradient(&self) -> &ForceField {
+        &self.gradient
+    }
+
+    /// The gain.
+    #[must_use]
+    pub const fn gain(&self) -> f64 {
+        self.gain
+    }
+
     /// The energy of a point whose outward normal is `normal`.
     #[must_use]
     pub fn energy(&self, p: DVec2, normal: DVec2) -> f64 {

@@ -6,7 +6,7 @@ use banded::{Circulant, Dense};
 use glam::DVec2;
 use integrator::{Fault, Scheme, State, System};
 
-use crate::{Pull, Snake};
+use crate::{Acting, Pull, Snake};
 
 /// The most nodes whose modes are found one by one where the curve is not a ring of equal nodes.
 const MOST: usize = 400;
@@ -88,16 +88,22 @@ impl Certificate {
     pub fn of(snake: &Snake, state: Option<&State>) -> Self {
         let least = free(snake, snake.mass()).fold(f64::INFINITY, f64::min);
         let frequency = |stiffness: f64| (stiffness / least).sqrt();
-        let pull = felt(snake, state);
+        let pull = felt(snake, state, |_| true);
+        // what a slope at each node by itself does not hold
+        let between = felt(snake, state, Acting::couples);
         let image_slope = pull.stiffness;
         let (contact, _) = snake.contact_stiffness();
         let (modes, complete) = modes(snake);
         let felt = Felt { snake, pull };
+        let coupled = Felt {
+            snake,
+            pull: between,
+        };
         let shortest = Scheme::Leapfrog.step_limit(&felt).unwrap_or(1.0);
         let limit = |scheme: Scheme| {
             // this one has the picture's slope in its matrix
             let system: &dyn System = match scheme {
-                Scheme::LinearlyImplicit => snake,
+                Scheme::LinearlyImplicit => &coupled,
                 _ => &felt,
             };
             // beyond any time the snake knows of, only rounding decides
@@ -312,11 +318,11 @@ fn outermost(snake: &Snake) -> (Vec<ModeOfMotion>, bool) {
 }
 
 /// How steeply the forces push a node back at most, and how much they damp it.
-fn felt(snake: &Snake, state: Option<&State>) -> Pull {
+fn felt(snake: &Snake, state: Option<&State>, counts: impl Fn(&Acting) -> bool) -> Pull {
     let mut sum = Pull::default();
-    for acting in &snake.world().forces {
+    for acting in snake.world().forces.iter().filter(|acting| counts(acting)) {
         let curve = state.map(|state| snake.curve(state.t, &state.x, &state.v));
-        let pull = acting.pull(curve.as_ref());
+        let pull = acting.pull(snake.body().spacing, curve.as_ref());
         sum.stiffness += pull.stiffness;
         sum.damping += pull.damping;
     }

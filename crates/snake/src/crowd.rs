@@ -364,6 +364,7 @@ impl Crowd {
             sum.damping += energies.damping;
             sum.contact += energies.contact;
             sum.parameters += energies.parameters;
+            sum.hand += energies.hand;
         }
         sum
     }

@@ -1,6 +1,7 @@
 //! What can be wrong with a snake or its world.
 
 use elastic::ElasticError;
+use glam::DVec2;
 use integrator::SchemeError;
 
 /// A value that no snake can be made of.
@@ -71,6 +72,34 @@ pub enum SnakeError {
         /// What was given.
         got: usize,
     },
+    /// A node that there is not.
+    #[error("there is no node {node}: the snake has {nodes}, counted from 0")]
+    NoSuchNode {
+        /// The node asked for.
+        node: usize,
+        /// How many there are.
+        nodes: usize,
+    },
+    /// Too few nodes to take hold of a curve.
+    #[error("at least {needed} nodes are needed, got {got}")]
+    TooFewNodes {
+        /// What is needed.
+        needed: usize,
+        /// What was given.
+        got: usize,
+    },
+    /// No force of that name acts.
+    #[error("no force called {name:?} acts on the snake")]
+    NoSuchForce {
+        /// The name asked for.
+        name: String,
+    },
+    /// A force that needs an inside, on an open curve.
+    #[error("the force {name:?} needs a closed curve: an open one has no inside")]
+    NeedsClosed {
+        /// What it is called.
+        name: String,
+    },
     /// The mass-weighted center needs some mass.
     #[error("the center of mass needs some mass, but mass is 0 everywhere")]
     NoMass,
@@ -88,4 +117,11 @@ pub(crate) fn finite_at_least(
     } else {
         Err(SnakeError::BadNumber { name, bound, value })
     }
+}
+
+/// Whether `at` is a place.
+pub(crate) fn place(name: &'static str, at: DVec2) -> Result<(), SnakeError> {
+    finite_at_least(name, f64::MIN, "a place", at.x)?;
+    finite_at_least(name, f64::MIN, "a place", at.y)?;
+    Ok(())
 }

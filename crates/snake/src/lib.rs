@@ -33,9 +33,9 @@
 //! blowing up is one of them, not an error.
 //!
 //! The body frame turns with the body where [`Turn::Fit`] says so; [`Turning`] is the same as the report's three
-//! equations have it (§5.2). [`Damping`] is chosen by rules (§3.4.2), which [`Settling`] compares.
-//!
-//! What it cannot do yet: push with a pressure (§5.4), re-space its nodes, or meet another snake.
+//! equations have it (§5.2). [`Damping`] is chosen by rules (§3.4.2), which [`Settling`] compares. [`Pressure`] makes it a
+//! balloon (§5.4). A [`Crowd`] is many snakes that meet, and keeps their outlines valid and even. Whoever watches a run may take hold:
+//! [`Snake::add_force`], [`Snake::hold`].
 
 mod account;
 mod body;
@@ -45,7 +45,9 @@ mod damping;
 mod energy;
 mod error;
 mod force;
+mod hand;
 mod inner;
+mod ledger;
 mod parameters;
 mod rest;
 mod run;
@@ -61,9 +63,13 @@ pub use body::{Body, Center, Frame};
 pub use certificate::{Certificate, ModeOfMotion};
 pub use crowd::{Contact, Crowd, CrowdError, Event, EventKind, Member, Plastic, Timing, Upkeep};
 pub use damping::Damping;
-pub use energy::{Energies, Ledger};
+pub use energy::Energies;
 pub use error::SnakeError;
-pub use force::{Acting, Curve, Force, Gravity, ImageForce, Pull, Sampling};
+pub use force::{
+    Acting, Curve, Force, Freeze, Gravity, ImageForce, Path, Pressure, Pull, RegionForce, Repulsor,
+    Sampling, SignedEdgeForce, Spring,
+};
+pub use ledger::Ledger;
 pub use rest::Rest;
 pub use run::{Outcome, Until, run};
 pub use schedule::{Schedule, Schedules};

@@ -195,8 +195,13 @@ pub fn run(
                 node,
             };
         }
+        let changes = snake.changes;
         if observer(snake, state).is_break() {
             return Outcome::Stopped { step: state.step };
+        }
+        if snake.changes != changes {
+            // forces kept from the last step are no longer those of this snake
+            stepper.resume(snake, state);
         }
         let step = state.step;
         match watch

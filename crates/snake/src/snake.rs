@@ -19,8 +19,10 @@ pub struct Snake {
     pub(crate) world: World,
     /// Weights of the nodes in the frame's origin; they sum to 1.
     pub(crate) weights: Vec<f64>,
-    held: Vec<bool>,
-    any_held: bool,
+    pub(crate) held: Vec<bool>,
+    pub(crate) any_held: bool,
+    /// Nodes that a hand holds, besides those of the ends.
+    pub(crate) grasped: Vec<bool>,
     /// Whether `−K e` has a sum, so that the frame's reaction is more than rounding.
     pushes: bool,
     /// The parameters as they are at the time last asked for.
@@ -28,7 +30,7 @@ pub struct Snake {
     pub(crate) mass: Vec<f64>,
     pub(crate) damping: Vec<f64>,
     pub(crate) factors: [f64; 5],
-    stiffness: Operator,
+    pub(crate) stiffness: Operator,
     /// The rest shape that turns, if it does.
     pub(crate) turning: Option<TurningRest>,
     /// The densities of internal damping, and a bound of it for step limits; if there is any.
@@ -39,6 +41,10 @@ pub struct Snake {
     pub(crate) account: Option<Account>,
     /// Someone changed the body: the schemes are to be told.
     pub(crate) changed: bool,
+    /// How often anyone changed anything, and how often schemes asked for forces, in all and before that.
+    pub(crate) changes: u64,
+    pub(crate) asked: u64,
+    pub(crate) asked_before: u64,
 }
 
 impl Snake {
@@ -49,7 +55,7 @@ impl Snake {
     /// Refused: whatever [`Body::validate`] and [`World::validate`] refuse.
     pub fn new(body: Body, world: World) -> Result<Self, SnakeError> {
         body.validate()?;
-        world.validate(body.len())?;
+        admit(&world, &body)?;
         let n = body.len();
         let weights = body.weights()?;
         let held = body.topology.held(n);
@@ -65,8 +71,12 @@ impl Snake {
             renewal: None,
             any_held: held.contains(&true),
             pushes,
+            grasped: vec![false; n],
             account: None,
             changed: false,
+            changes: 0,
+            asked: 0,
+            asked_before: 0,
             body,
             world,
             weights,
@@ -204,13 +214,13 @@ impl Snake {
                 got: body.len(),
             });
         }
-        let world = self.world.clone();
-        let account = self.account.take();
-        *self = Self {
-            account,
-            changed: true,
-            ..Self::new(body, world)?
-        };
+        let mut new = Self::new(body, self.world.clone())?;
+        new.account = self.account.take();
+        (new.changes, new.asked) = (self.changes, self.asked);
+        new.grasped.clone_from(&self.grasped);
+        new.hold_again()?;
+        new.note();
+        *self = new;
         Ok(())
     }
 
@@ -228,17 +238,21 @@ impl Snake {
         }
         elastic::validate_nodes(&rest, self.body.topology)?;
         self.body.rest = rest;
-        self.body.recenter()
+        self.body.recenter()?;
+        self.turning = TurningRest::new(&self.body, &self.weights, self.factors);
+        self.note_quietly();
+        Ok(())
     }
 
-    /// Put another world in place of this one: forces that come and go during a run.
+    /// Put another world in place of this one.
     ///
     /// # Errors
     ///
-    /// Refused: whatever [`World::validate`] refuses; then nothing has changed.
+    /// Refused: whatever [`Snake::new`] refuses of a world; then nothing has changed.
     pub fn set_world(&mut self, world: World) -> Result<(), SnakeError> {
-        world.validate(self.body.len())?;
+        admit(&world, &self.body)?;
         self.world = world;
+        self.note();
         Ok(())
     }
 
@@ -272,6 +286,17 @@ impl Snake {
             }
         }
         force
+    }
+}
+
+/// A world that this body can be in.
+pub(crate) fn admit(world: &World, body: &Body) -> Result<(), SnakeError> {
+    world.validate(body.len())?;
+    match world.needs_closed() {
+        Some(acting) if !body.topology.is_closed() => Err(SnakeError::NeedsClosed {
+            name: acting.name().to_owned(),
+        }),
+        _ => Ok(()),
     }
 }
 
@@ -354,6 +379,7 @@ impl System for Snake {
         v: &[DVec2],
         force: &mut [DVec2],
     ) -> Result<(), Fault> {
+        self.asked += 1;
         let (forces, curve) = self.forces(t, x, v);
         for acting in forces {
             acting.add(&curve, force)?;

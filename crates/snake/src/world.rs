@@ -65,6 +65,13 @@ impl World {
             })
     }
 
+    /// The first force that means nothing on an open curve.
+    pub(crate) fn needs_closed(&self) -> Option<&Acting> {
+        self.forces
+            .iter()
+            .find(|acting| acting.force().needs_closed())
+    }
+
     /// Check every value against a body of `n` nodes.
     ///
     /// # Errors

@@ -308,7 +308,9 @@ impl Crowd {
         let mut body = renewed.body;
         // drawn from other nodes its mean is no longer exactly zero
         body.recenter()?;
-        member.snake = Snake::new(body, world)?;
+        let mut snake = Snake::new(body, world)?;
+        snake.follow(&member.snake, &renewed.plan)?;
+        member.snake = snake;
         member.state = renewed.state;
         (member.watch, member.calm) = (None, false);
         let id = member.id;

@@ -7,13 +7,16 @@ use field::{ForceField, Interpolation};
 use glam::{DMat2, DVec2};
 use integrator::{Fault, FaultKind};
 
-use super::{Curve, Force, Pull};
+use super::{Curve, Force, Pull, nowhere, push_back};
 
 /// How the force of a picture is read between its pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sampling {
     /// Bilinear in the four pixels around; the position is clamped to the picture.
     Bilinear,
+    /// By cubics through sixteen pixels, clamped likewise: its slope is continuous, and it goes up to a
+    /// quarter beyond the forces of its pixels.
+    Bicubic,
     /// The report's rule: along one axis only, from the rounded pixel, and a fault off the picture
     /// (D51, D54).
     OneAxis,
@@ -53,6 +56,14 @@ impl ImageForce {
     pub const fn sampling(&self) -> Sampling {
         self.sampling
     }
+
+    /// The rule of its slopes: the report's rule has none and is bounded by the bilinear one's.
+    const fn rule(&self) -> Interpolation {
+        match self.sampling {
+            Sampling::Bicubic => Interpolation::Bicubic,
+            Sampling::Bilinear | Sampling::OneAxis => Interpolation::Bilinear,
+        }
+    }
 }
 
 impl Force for ImageForce {
@@ -65,19 +76,14 @@ impl Force for ImageForce {
     fn add(&mut self, curve: &Curve<'_>, force: &mut [DVec2]) -> Result<(), Fault> {
         let x = curve.x;
         match self.sampling {
-            Sampling::Bilinear => {
+            Sampling::Bilinear | Sampling::Bicubic => {
                 self.scratch.resize(x.len(), DVec2::ZERO);
-                self.field
-                    .sample_into(x, Interpolation::Bilinear, &mut self.scratch);
+                self.field.sample_into(x, self.rule(), &mut self.scratch);
                 // a place that is none has a force that is none; found by the sum, once
                 if !self.scratch.iter().sum::<DVec2>().is_finite()
-                    && let Some(node) = x.iter().position(|p| !p.is_finite())
+                    && let Some(fault) = nowhere(x)
                 {
-                    return Err(Fault {
-                        node,
-                        at: x[node],
-                        kind: FaultKind::NotFinite,
-                    });
+                    return Err(fault);
                 }
                 for (f, &sampled) in force.iter_mut().zip(&self.scratch) {
                     *f += sampled;
@@ -101,19 +107,22 @@ impl Force for ImageForce {
         if self.sampling == Sampling::OneAxis {
             return false; // the report's rule jumps between pixels and has no slope there
         }
+        let rule = self.rule();
         for (slope, &p) in slope.iter_mut().zip(curve.x) {
-            *slope += self.field.sample_with_slope(p, Interpolation::Bilinear).1;
+            *slope += self.field.sample_with_slope(p, rule).1;
         }
         true
     }
 
-    fn pull(&self, curve: Option<&Curve<'_>>) -> Pull {
+    /// Anywhere under bicubic sampling: a bound, up to about twice what is reached.
+    fn pull(&self, _spacing: f64, curve: Option<&Curve<'_>>) -> Pull {
         let stiffness = match curve {
             Some(curve) => curve
                 .x
                 .iter()
-                .map(|&p| push_back(self.field.sample_with_slope(p, Interpolation::Bilinear).1))
+                .map(|&p| push_back(self.field.sample_with_slope(p, self.rule()).1))
                 .fold(0.0, f64::max),
+            None if self.sampling == Sampling::Bicubic => steepest_cubic(&self.field),
             None => steepest_in(&self.field),
         };
         Pull {
@@ -152,9 +161,22 @@ fn steepest_in(field: &ForceField) -> f64 {
     steepest
 }
 
-/// The largest eigenvalue of −½ (J + Jᵀ), at least 0.
-pub(crate) fn push_back(slope: DMat2) -> f64 {
-    let (a, d) = (-slope.x_axis.x, -slope.y_axis.y);
-    let b = -0.5 * (slope.x_axis.y + slope.y_axis.x);
-    (0.5 * (a + d) + (0.5 * (a - d)).hypot(b)).max(0.0)
+/// The same under bicubic sampling, or more.
+///
+/// A slope between pixels is a sum of differences of neighbors along the axis whose weights are 1.5 at most in size
+/// (at the middle of a cell), over rows whose weights are 1.25 at most.
+fn steepest_cubic(field: &ForceField) -> f64 {
+    let at = |column: usize, row: usize| field.pixel(column, row).unwrap_or(DVec2::ZERO);
+    let (mut across, mut down) = (0.0_f64, 0.0_f64);
+    for row in 0..field.height() {
+        for column in 0..field.width() {
+            if column > 0 {
+                across = across.max((at(column, row) - at(column - 1, row)).length_squared());
+            }
+            if row > 0 {
+                down = down.max((at(column, row) - at(column, row - 1)).length_squared());
+            }
+        }
+    }
+    1.5 * 1.25 * (across + down).sqrt()
 }

@@ -1,0 +1,266 @@
+//! The account of where the energies of a run go.
+
+use glam::DVec2;
+use integrator::{Fault, State, System};
+
+use crate::{Energies, Snake};
+
+/// Follows a run and keeps account of what has no potential.
+///
+/// Between two states the motion is taken as the cubic through both places and velocities, and
+/// powers are summed by Simpson's rule: an error of order 4 in the step where the scheme has one. A
+/// step with a contact, whose velocity jumps, is booked by the trapezoidal rule: order 2. What a
+/// contact takes is asked of the snake at the moment it happens.
+///
+/// When the snake or its world has been changed between two steps ([`Snake::add_force`], [`Snake::hold`],
+/// [`Snake::set_body`], …), the sum of all terms just before, less that just after, is booked under `hand`. A force
+/// keeps its column as long as one of its name acts; what a force without a potential had booked when it went is the hand's. Book every
+/// step, before or after the change.
+#[derive(Debug, Clone)]
+pub struct Ledger {
+    before: State,
+    /// The snake as it was when last changed, to ask for its energies.
+    was: Box<Snake>,
+    /// Forces without a potential, by their place in the world.
+    bookings: Vec<Booking>,
+    damping: f64,
+    /// What damping took per unit of time at the last state, under the damping there was then.
+    rate: f64,
+    contact: f64,
+    parameters: f64,
+    hand: f64,
+    middle: State,
+    force: Vec<DVec2>,
+    halfway: Vec<DVec2>,
+}
+
+#[derive(Debug, Clone)]
+struct Booking {
+    index: usize,
+    work: f64,
+    /// Power at the last state.
+    power: f64,
+    /// Force at the last state.
+    force: Vec<DVec2>,
+}
+
+impl Ledger {
+    /// Begin at `state`.
+    ///
+    /// # Errors
+    ///
+    /// The fault of a force that has no value at a node.
+    pub fn begin(snake: &mut Snake, state: &State) -> Result<Self, Fault> {
+        snake.keep_account();
+        let n = state.len();
+        Ok(Self {
+            before: state.clone(),
+            was: Box::new(snake.clone()),
+            bookings: bookings(snake, state, |_| 0.0)?,
+            damping: 0.0,
+            rate: snake.loss(state),
+            contact: 0.0,
+            parameters: 0.0,
+            hand: 0.0,
+            middle: state.clone(),
+            force: vec![DVec2::ZERO; n],
+            halfway: vec![DVec2::ZERO; n],
+        })
+    }
+
+    /// Book the step that led to `state`.
+    ///
+    /// # Errors
+    ///
+    /// The fault of a force that has no value at a node; what was booked before stays.
+    pub fn book(&mut self, snake: &mut Snake, state: &State) -> Result<(), Fault> {
+        let lost = snake.take_lost();
+        if snake.changes == self.was.changes {
+            return self.step(snake, state, lost);
+        }
+        if !snake.just_changed() {
+            self.change(snake)?;
+            return self.step(snake, state, lost);
+        }
+        // changed at `state`: the step was still made by the snake as it was
+        let mut was = self.was.clone();
+        if snake.renewal.is_some() {
+            // chosen since then by the snake itself
+            was.body.damping.clone_from(&snake.body.damping);
+        }
+        self.step(&mut was, state, lost)?;
+        self.change(snake)
+    }
+
+    fn step(&mut self, snake: &mut Snake, state: &State, lost: Option<f64>) -> Result<(), Fault> {
+        let h = snake.body().spacing;
+        let dt = state.t - self.before.t;
+        let smooth = lost.is_none();
+        self.stop(snake)?;
+        self.contact += lost.unwrap_or(0.0);
+        self.parameters -= snake.take_put_in(&self.before, state);
+        self.interpolate(state, dt);
+        let loss = |state: &State| snake.loss(state);
+        let (before, after) = (self.rate, loss(state));
+        self.damping += h * if smooth {
+            dt / 6.0 * (before + 4.0 * loss(&self.middle) + after)
+        } else {
+            dt / 2.0 * (before + after)
+        };
+        self.rate = after;
+        for booking in &mut self.bookings {
+            self.force.fill(DVec2::ZERO);
+            snake.force_of(booking.index, state, &mut self.force)?;
+            let after = power(&self.force, &state.v);
+            let work = if smooth {
+                self.halfway.fill(DVec2::ZERO);
+                snake.force_of(booking.index, &self.middle, &mut self.halfway)?;
+                dt / 6.0 * (booking.power + 4.0 * power(&self.halfway, &self.middle.v) + after)
+            } else {
+                let mut work = 0.0;
+                for (i, &x) in state.x.iter().enumerate() {
+                    work += 0.5 * (booking.force[i] + self.force[i]).dot(x - self.before.x[i]);
+                }
+                work
+            };
+            booking.work += h * work;
+            booking.power = after;
+            booking.force.copy_from_slice(&self.force);
+        }
+        self.before.clone_from(state);
+        Ok(())
+    }
+
+    /// Nodes that a hand has stopped stand: what they had is its work.
+    fn stop(&mut self, snake: &mut Snake) -> Result<(), Fault> {
+        let (h, mut stopped) = (snake.body().spacing, 0.0);
+        for (i, v) in self.before.v.iter_mut().enumerate() {
+            if snake.held()[i] && *v != DVec2::ZERO {
+                stopped += 0.5 * h * snake.mass()[i] * v.length_squared();
+                *v = DVec2::ZERO;
+            }
+        }
+        if stopped > 0.0 {
+            self.hand += stopped;
+            self.begin_powers(snake)?;
+        }
+        Ok(())
+    }
+
+    /// What everything does per unit of time at the last state, asked anew.
+    fn begin_powers(&mut self, snake: &mut Snake) -> Result<(), Fault> {
+        self.rate = snake.loss(&self.before);
+        for booking in &mut self.bookings {
+            booking.force.clear();
+            booking.force.resize(self.before.len(), DVec2::ZERO);
+            snake.force_of(booking.index, &self.before, &mut booking.force)?;
+            booking.power = power(&booking.force, &self.before.v);
+        }
+        Ok(())
+    }
+
+    /// Book the change of the snake that happened at the last state.
+    fn change(&mut self, snake: &mut Snake) -> Result<(), Fault> {
+        let mut was = self.was.clone();
+        let sum = self.energies(&mut was, &self.before).total();
+        let mut works = vec![Some(0.0); was.world().forces.len()];
+        for booking in &self.bookings {
+            works[booking.index] = Some(booking.work);
+        }
+        let before = self.before.clone();
+        self.bookings = bookings(snake, &before, |name| {
+            let mut old = works.iter_mut().zip(was.world().names());
+            let same = old.find(|(work, old)| work.is_some() && *old == name);
+            same.and_then(|(work, _)| work.take()).unwrap_or(0.0)
+        })?;
+        self.hand += sum - self.energies(snake, &before).total();
+        self.rate = snake.loss(&before);
+        *self.was = snake.clone();
+        Ok(())
+    }
+
+    /// Go on from another state, as after a kick from outside or on other nodes: what is booked stays, and a change of
+    /// the snake is not booked.
+    ///
+    /// # Errors
+    ///
+    /// As [`Ledger::begin`].
+    pub fn resume(&mut self, snake: &mut Snake, state: &State) -> Result<(), Fault> {
+        let n = state.len();
+        snake.keep_account();
+        self.before.clone_from(state);
+        self.middle.clone_from(state);
+        self.force.resize(n, DVec2::ZERO);
+        self.halfway.resize(n, DVec2::ZERO);
+        self.begin_powers(snake)?;
+        if snake.changes != self.was.changes {
+            *self.was = snake.clone();
+        }
+        Ok(())
+    }
+
+    /// All that is booked as lost or put in, and minus all work.
+    #[must_use]
+    pub(crate) fn booked(&self) -> (f64, f64) {
+        let work: f64 = self.bookings.iter().map(|booking| booking.work).sum();
+        let lost = self.damping + self.contact + self.parameters + self.hand;
+        (lost, 0.0 - work)
+    }
+
+    /// The cubic through both states, halfway.
+    fn interpolate(&mut self, state: &State, dt: f64) {
+        let (from, middle) = (&self.before, &mut self.middle);
+        middle.t = from.t + 0.5 * dt;
+        for i in 0..state.len() {
+            let way = state.x[i] - from.x[i];
+            middle.x[i] = from.x[i] + 0.5 * way + dt / 8.0 * (from.v[i] - state.v[i]);
+            middle.v[i] = 1.5 / dt * way - 0.25 * (from.v[i] + state.v[i]);
+        }
+    }
+
+    /// The energies of `snake` at `state`, with all that is booked.
+    pub fn energies(&self, snake: &mut Snake, state: &State) -> Energies {
+        let mut energies = snake.energies(state);
+        for booking in &self.bookings {
+            if let Some(energy) = energies.forces.get_mut(booking.index) {
+                // minus no work is plain zero
+                *energy = 0.0 - booking.work;
+            }
+        }
+        energies.damping = self.damping;
+        energies.contact = self.contact;
+        energies.parameters = self.parameters;
+        energies.hand = self.hand;
+        energies
+    }
+}
+
+/// An entry for each force without a potential; `work` says by its name what it has done so far, and is asked for every
+/// force, in the order of the world.
+fn bookings(
+    snake: &mut Snake,
+    state: &State,
+    mut work: impl FnMut(&str) -> f64,
+) -> Result<Vec<Booking>, Fault> {
+    let potentials = snake.potentials(&snake.curve(state.t, &state.x, &state.v));
+    let mut bookings = Vec::new();
+    for (index, potential) in potentials.into_iter().enumerate() {
+        let work = work(snake.world().forces[index].name());
+        if potential.is_none() {
+            let mut force = vec![DVec2::ZERO; state.len()];
+            snake.force_of(index, state, &mut force)?;
+            let power = power(&force, &state.v);
+            bookings.push(Booking {
+                index,
+                work,
+                power,
+                force,
+            });
+        }
+    }
+    Ok(bookings)
+}
+
+fn power(force: &[DVec2], v: &[DVec2]) -> f64 {
+    force.iter().zip(v).map(|(f, v)| f.dot(*v)).sum()
+}
