@@ -3,7 +3,7 @@
 use crate::Experiment;
 use crate::experiments::{
     angle, apple, atlas, ball, corners, damping, decomposition, disc, ends, energy, force_field,
-    matrix, profiles, signal, smoothing, time_step,
+    forces, matrix, profiles, signal, smoothing, time_step,
 };
 
 /// Every experiment. A new one is added here and nowhere else.
@@ -30,6 +30,11 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &signal::FORCE,
     &disc::DISC,
     &force_field::FIELD,
+    &forces::FIELDS,
+    &forces::BARS,
+    &forces::ROTATION,
+    &forces::CAPTURE,
+    &forces::NOISE,
     &apple::FIRST,
     &apple::SECOND,
     &apple::THIRD,

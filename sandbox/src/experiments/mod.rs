@@ -11,6 +11,7 @@ pub(crate) mod disc;
 pub(crate) mod ends;
 pub(crate) mod energy;
 pub(crate) mod force_field;
+pub(crate) mod forces;
 pub(crate) mod integrators;
 pub(crate) mod matrix;
 mod motion;
