@@ -397,6 +397,13 @@ impl System for Snake {
         Ok(())
     }
 
+    fn external_is_constant(&self) -> bool {
+        let still = self.turning.is_none() && self.inner.is_none() && self.renewal.is_none();
+        still
+            && self.world.forces.iter().all(Acting::is_constant)
+            && !self.world.walls.iter().any(Wall::is_spring)
+    }
+
     fn contacts(
         &mut self,
         _dt: f64,

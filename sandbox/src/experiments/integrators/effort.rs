@@ -98,6 +98,10 @@ impl System for Counted<'_> {
         self.inner.external(t, x, v, force)
     }
 
+    fn external_is_constant(&self) -> bool {
+        self.inner.external_is_constant()
+    }
+
     fn contacts(
         &mut self,
         dt: f64,
