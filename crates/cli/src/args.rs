@@ -135,6 +135,17 @@ pub(crate) struct Fit {
     /// weight as `gvf:0.5`, with keys of its own as `{ kind = "edge", sigma = 2.0 }`.
     #[arg(long, value_name = "KIND")]
     pub force: Vec<String>,
+    /// Which edges attract, going outwards across the contour.
+    #[arg(long, value_enum, default_value_t = Polarity::Either)]
+    pub polarity: Polarity,
+    /// Pressure inside the contour, in pulls of an edge: it grows, or shrinks below 0; 0.1 is much.
+    #[arg(
+        long,
+        value_name = "S",
+        allow_negative_numbers = true,
+        default_value_t = 0.0
+    )]
+    pub balloon: f64,
     /// Width of the Gaussian that smooths the picture for the edge force, pixels; the reach is about three times that.
     #[arg(long, value_name = "PX", allow_negative_numbers = true, default_value_t = scene::Fit::default().sigma)]
     pub sigma: f64,
@@ -164,4 +175,15 @@ pub(crate) enum What {
     Schemes,
     /// Kinds of force that act on it.
     Forces,
+}
+
+/// Which edges attract, going outwards.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Polarity {
+    /// Both kinds.
+    Either,
+    /// Dark inside, bright outside.
+    DarkToBright,
+    /// Bright inside, dark outside.
+    BrightToDark,
 }

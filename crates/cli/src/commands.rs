@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use scene::field::Smoothing;
+use scene::field::{Polarity, Smoothing};
 use scene::integrator::Scheme;
 use scene::snake::{Certificate, Outcome};
 use scene::{Contour, Fields, ForceChoice, Picture, Record, Scene, SceneError};
@@ -77,6 +77,12 @@ pub(crate) fn fit(args: &args::Fit) -> Answer {
         sigma: args.sigma,
         strength: args.strength,
         forces: choices("--force", &args.force)?,
+        polarity: match args.polarity {
+            args::Polarity::Either => Polarity::Either,
+            args::Polarity::DarkToBright => Polarity::DarkToBright,
+            args::Polarity::BrightToDark => Polarity::BrightToDark,
+        },
+        balloon: args.balloon,
         dt: args.dt,
         steps: args.steps,
     };

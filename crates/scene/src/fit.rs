@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use elastic::{ElasticError, Material, Parameter, Topology};
-use field::{EdgeForce, FieldError, ForceField, Smoothing};
+use field::{EdgeForce, FieldError, ForceField, Polarity, Smoothing};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
-use snake::{Body, Rest, Sampling, Snake, SnakeError, Until, Wall, WallLaw, World};
+use snake::{
+    Acting, Body, Pressure, Rest, Sampling, Snake, SnakeError, Until, Wall, WallLaw, World,
+};
 
 use crate::build::force::{self, Sight};
 use crate::build::{outside, smoothing};
@@ -38,6 +40,10 @@ pub struct Fit {
     pub strength: f64,
     /// Forces to pull with instead of that edge force; none for it alone.
     pub forces: Vec<ForceChoice>,
+    /// Which edges attract, going outwards: of that edge force, and of every chosen one that does not say.
+    pub polarity: Polarity,
+    /// Pressure inside the curve, in pulls of that edge force at strength 1: above 0 it grows, below 0 it shrinks.
+    pub balloon: f64,
     /// The step; by default half of the largest stable one.
     pub dt: Option<f64>,
     /// Steps at most.
@@ -56,6 +62,8 @@ impl Default for Fit {
             sigma: 10.0_f64.sqrt(),
             strength: 1.0,
             forces: Vec::new(),
+            polarity: Polarity::Either,
+            balloon: 0.0,
             dt: None,
             steps: 20_000,
         }
@@ -125,7 +133,7 @@ impl Fit {
             .map_err(unfit)?
             .with_material(Material::uniform(self.tether, self.tension, self.rigidity))
             .with_damping(self.damping);
-        let (mut world, field) = self.world(&sight, nodes)?;
+        let (mut world, field) = self.world(&sight, &x, closed)?;
         let law = WallLaw::Impact {
             restitution: 0.0,
             friction: 0.0,
@@ -170,15 +178,47 @@ impl Fit {
     fn world(
         &self,
         sight: &Sight<'_>,
-        nodes: usize,
+        nodes: &[DVec2],
+        closed: bool,
     ) -> Result<(World, Option<Arc<ForceField>>), SceneError> {
-        if !self.forces.is_empty() {
-            let keyed =
-                |choice: &ForceChoice| (format!("--force {}", choice.kind()), choice.0.clone());
-            let keyed: Vec<(String, ForceText)> = self.forces.iter().map(keyed).collect();
-            let world = force::add(World::default(), &keyed, Some(sight), nodes)?;
-            return Ok((world, None));
+        if !self.balloon.is_finite() {
+            let message = format!("must be finite, got {}", self.balloon);
+            return Err(SceneError::key("--balloon", message));
         }
+        let mut world = World::default();
+        let mut field = None;
+        let mut chosen = self.forces.clone();
+        if chosen.is_empty() {
+            if self.polarity == Polarity::Either {
+                let usual = Arc::new(self.usual_field(sight)?);
+                world = world.with_image(Arc::clone(&usual), Sampling::Bilinear);
+                field = Some(usual);
+            } else {
+                smoothing("--sigma", Smoothing::Gaussian(self.sigma), sight.picture)?;
+                // that edge force at another σ has another pull
+                let strength = self.strength * 10.0 / (self.sigma * self.sigma);
+                chosen.push(ForceChoice::edge(self.sigma, strength));
+            }
+        }
+        let keyed = |choice: &ForceChoice| {
+            let text = choice.clone().with_polarity(self.polarity).0;
+            (format!("--force {}", choice.kind()), text)
+        };
+        let keyed: Vec<(String, ForceText)> = chosen.iter().map(keyed).collect();
+        world = force::add(world, &keyed, Some(sight), nodes, closed)?;
+        if self.balloon.abs() > 0.0 {
+            if !closed {
+                let message = "asks what is inside; a closed contour would do";
+                return Err(SceneError::key("--balloon", message));
+            }
+            let pressure = Pressure::constant(force::PULL * self.balloon);
+            world = world.with_acting(Acting::new(pressure).named("balloon"));
+        }
+        Ok((world, field))
+    }
+
+    /// The field of the usual edge force.
+    fn usual_field(&self, sight: &Sight<'_>) -> Result<ForceField, SceneError> {
         let picture = sight.picture;
         let usual = EdgeForce::as_strong_as_the_report().gain;
         let rule = EdgeForce {
@@ -187,9 +227,7 @@ impl Fit {
         };
         let refuse = |e: FieldError| SceneError::key("--sigma", e);
         let masked = picture.masked(&picture.levels).map_err(refuse)?;
-        let field = Arc::new(masked.edge_force(&rule).map_err(refuse)?);
-        let world = World::default().with_image(Arc::clone(&field), Sampling::Bilinear);
-        Ok((world, Some(field)))
+        masked.edge_force(&rule).map_err(refuse)
     }
 }
 

@@ -1,9 +1,11 @@
 //! The kinds of force by name: what `snake list forces` shows, and one picked on a command line.
 
+use field::Polarity;
+
 use crate::SceneError;
 use crate::build::force;
 use crate::error::{clip, nearest};
-use crate::file::{ForceText, WORDS};
+use crate::file::{CommonText, EdgeText, ForceText, KindText, PolarityText, WORDS};
 
 /// A kind of force that a scene can name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,6 +35,15 @@ forces![
     "distance", "the nearest edge, with constant pull", "distance to the nearest edge";
     "gvf", "gradient vector flow: edges from as far as the picture is wide", "none";
     "vfc", "vector field convolution: all edges at once, by distance", "none";
+    "regions", "what is like the inside into the curve: one mean inside, one outside", "none where nodes are asked";
+    "local-regions", "the same with means near each node: uneven light", "none";
+    "likelihood", "the same by histograms, Gaussians or mixtures of grey or color", "none where nodes are asked";
+    "pressure", "a balloon: the same pressure always", "-pressure * area enclosed";
+    "gas", "a gas: pressure times area stays", "-pressure * area * ln(area enclosed)";
+    "area", "a spring towards an area", "pressure / 2 * (area enclosed - area)^2 / area";
+    "spring", "a spring from the curve to a place that stays or moves", "stiffness / 2 * length^2, undamped and at rest";
+    "repulsor", "a push away from a place, of finite reach", "a hill of that height";
+    "freeze", "nodes held by a spring each where they were", "stiffness / 2 * distance^2, undamped";
     "gravity", "a uniform acceleration", "-mass * acceleration . x";
 ];
 
@@ -89,9 +100,33 @@ impl ForceChoice {
             })
     }
 
+    pub(crate) fn edge(sigma: f64, strength: f64) -> Self {
+        let edge = EdgeText {
+            sigma: Some(sigma),
+            strength: Some(strength),
+            polarity: None,
+        };
+        Self(ForceText {
+            kind: KindText::Edge(edge),
+            common: CommonText::default(),
+        })
+    }
+
+    /// The same with that polarity, if it is an edge force and does not say.
+    pub(crate) fn with_polarity(mut self, polarity: Polarity) -> Self {
+        if let KindText::Edge(edge) = &mut self.0.kind {
+            edge.polarity.get_or_insert(match polarity {
+                Polarity::DarkToBright => PolarityText::DarkToBright,
+                Polarity::BrightToDark => PolarityText::BrightToDark,
+                Polarity::Either => PolarityText::Either,
+            });
+        }
+        self
+    }
+
     /// Whether it is a field of the picture alone: one that asks for no curve.
     #[must_use]
-    pub const fn is_field(&self) -> bool {
+    pub fn is_field(&self) -> bool {
         force::is_field(&self.0.kind)
     }
 

@@ -85,7 +85,14 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         world::inside(&start, picture, rules)?;
     }
     let mut notes = Vec::new();
-    let (world, field) = world::world(text, rules, picture.as_ref(), body.len(), &mut notes)?;
+    let (world, field) = world::world(
+        text,
+        rules,
+        picture.as_ref(),
+        &start.x,
+        body.topology.is_closed(),
+        &mut notes,
+    )?;
     let snake = Snake::new(body, world).map_err(|e| refused("snake", &e))?;
     let company = company::company(text, rules, picture.as_ref(), &snake, folder)?;
     Ok(Scene {

@@ -97,7 +97,8 @@ pub(super) fn world(
     text: &SceneText,
     rules: Rules,
     picture: Option<&Picture>,
-    n: usize,
+    nodes: &[DVec2],
+    closed: bool,
     notes: &mut Vec<String>,
 ) -> Result<(World, Option<Arc<ForceField>>), SceneError> {
     let mut world = World::default();
@@ -114,7 +115,7 @@ pub(super) fn world(
             Rule::Corrected => Sampling::Bilinear,
         };
         let weight = match &f.weight {
-            Some(weight) => profile("field.weight", weight, n)?,
+            Some(weight) => profile("field.weight", weight, nodes.len())?,
             None => Profile::Uniform(1.0),
         };
         let image = Acting::new(ImageForce::new(Arc::clone(&field), sampling));
@@ -123,7 +124,7 @@ pub(super) fn world(
     }
     let keyed = |(i, force): (usize, &'_ ForceText)| (format!("force {i}"), force.clone());
     let keyed: Vec<(String, ForceText)> = text.force.iter().enumerate().map(keyed).collect();
-    world = force::add(world, &keyed, sight.as_ref(), n)?;
+    world = force::add(world, &keyed, sight.as_ref(), nodes, closed)?;
     for (i, text) in text.world.wall.iter().enumerate() {
         world.walls.push(wall(&format!("world.wall {i}"), text)?);
     }

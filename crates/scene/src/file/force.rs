@@ -54,7 +54,7 @@ macro_rules! kinds {
 }
 
 kinds![
-    "edge" Edge(StrengthText),
+    "edge" Edge(EdgeText),
     "color-edge" ColorEdge(StrengthText),
     "scales" Scales(ScalesText),
     "line" Line(LineText),
@@ -62,6 +62,15 @@ kinds![
     "distance" Distance(DistanceText),
     "gvf" Gvf(GvfText),
     "vfc" Vfc(VfcText),
+    "regions" Regions(RegionsText),
+    "local-regions" LocalRegions(LocalRegionsText),
+    "likelihood" Likelihood(LikelihoodText),
+    "pressure" Pressure(PressureText),
+    "gas" Gas(AreaText),
+    "area" Area(AreaText),
+    "spring" Spring(SpringText),
+    "repulsor" Repulsor(RepulsorText),
+    "freeze" Freeze(FreezeText),
     "gravity" Gravity(GravityText),
 ];
 
@@ -125,6 +134,22 @@ pub(super) fn forces<'de, D: Deserializer<'de>>(
             .map_err(|error| D::Error::custom(format!("force {i}: {}", error.message())))
     };
     tables.into_iter().enumerate().map(read).collect()
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum PolarityText {
+    Either,
+    DarkToBright,
+    BrightToDark,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct EdgeText {
+    pub sigma: Option<f64>,
+    pub strength: Option<f64>,
+    pub polarity: Option<PolarityText>,
 }
 
 /// A kind that needs no more than a smoothing and a strength.
@@ -195,6 +220,93 @@ pub(crate) struct VfcText {
     pub width: Option<f64>,
     pub reach: Option<f64>,
     pub knee: Option<f64>,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct RegionsText {
+    pub sigma: Option<f64>,
+    pub strength: Option<f64>,
+    pub grey: Option<bool>,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct LocalRegionsText {
+    pub sigma: Option<f64>,
+    pub strength: Option<f64>,
+    pub grey: Option<bool>,
+    pub radius: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum DensityText {
+    Histogram,
+    Gaussian,
+    Mixture,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct LikelihoodText {
+    pub sigma: Option<f64>,
+    pub strength: Option<f64>,
+    pub grey: Option<bool>,
+    pub classes: Option<usize>,
+    pub density: Option<DensityText>,
+    pub bandwidth: Option<f64>,
+    pub components: Option<usize>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum DirectionText {
+    Given,
+    Picture,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct PressureText {
+    pub pressure: f64,
+    pub direction: Option<DirectionText>,
+}
+
+/// Of a gas, and of a spring towards an area.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct AreaText {
+    pub pressure: f64,
+    pub area: Option<f64>,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct SpringText {
+    pub node: Option<usize>,
+    pub from: Option<[f64; 2]>,
+    pub to: Option<[f64; 2]>,
+    pub path: Option<Vec<[f64; 3]>>,
+    pub stiffness: f64,
+    pub damping: Option<f64>,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct RepulsorText {
+    pub at: Option<[f64; 2]>,
+    pub path: Option<Vec<[f64; 3]>>,
+    pub reach: f64,
+    pub push: f64,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct FreezeText {
+    pub stretch: [usize; 2],
+    pub stiffness: f64,
+    pub damping: Option<f64>,
 }
 
 #[derive(Debug, Clone, PartialEq, Deserialize)]

@@ -4,7 +4,9 @@
 //! of 120 grey levels under the report's rules; here it is that of an edge as high as the picture's own contrast, so
 //! that exposure does not matter, and at any smoothing.
 
+mod curve;
 mod reach;
+mod region;
 mod strength;
 
 use std::collections::BTreeSet;
@@ -12,11 +14,12 @@ use std::sync::Arc;
 
 use elastic::Profile;
 use field::{FieldError, ForceField, Grid, MaskedImage, Smoothing};
-use snake::{Acting, Gravity, ImageForce, Sampling, World};
+use glam::DVec2;
+use snake::{Acting, Gravity, ImageForce, Pressure, RegionForce, Sampling, World};
 
 use super::body::{profile, straight};
 use super::{number, smoothing};
-use crate::file::{ForceText, KindText};
+use crate::file::{EdgeText, ForceText, KindText, PolarityText};
 use crate::{Picture, SceneError};
 
 /// Force of strength 1: a gain of 6 on 120 levels, smoothed with σ² = 10, at its strongest, one σ from the
@@ -74,7 +77,7 @@ impl<'a> Sight<'a> {
     pub(crate) fn field(&self, key: &str, kind: &KindText) -> Result<Option<Made>, SceneError> {
         let at = At { key, sight: self };
         let made = match kind {
-            KindText::Edge(text) => at.edge(text),
+            KindText::Edge(text) if either(text) => at.edge(text),
             KindText::ColorEdge(text) => at.color_edge(text),
             KindText::Scales(text) => at.scales(text),
             KindText::Line(text) => at.line(text),
@@ -82,7 +85,7 @@ impl<'a> Sight<'a> {
             KindText::Distance(text) => at.distance(text),
             KindText::Gvf(text) => at.gvf(text),
             KindText::Vfc(text) => at.vfc(text),
-            KindText::Gravity(_) => return Ok(None),
+            _ => return Ok(None),
         };
         made.map(Some)
     }
@@ -145,30 +148,87 @@ impl At<'_> {
     }
 }
 
-/// The forces of a `[[force]]`, or of a `--force`: named, with their weight and schedule.
-pub(crate) fn acting(
-    key: &str,
-    text: &ForceText,
-    sight: Option<&Sight<'_>>,
-    n: usize,
-) -> Result<Vec<Acting>, SceneError> {
-    let sees = || {
-        sight.ok_or_else(|| {
-            let message = format!("{} looks at a picture, and there is none", text.kind.word());
-            SceneError::key(&format!("{key}: kind"), message)
+/// The curve that a force is to act on, and what there is to see.
+pub(crate) struct Around<'a> {
+    key: &'a str,
+    sight: Option<&'a Sight<'a>>,
+    nodes: &'a [DVec2],
+    closed: bool,
+}
+
+impl<'a> Around<'a> {
+    /// The picture, or a refusal where there is none.
+    fn seen(&self) -> Result<At<'a>, SceneError> {
+        let key = self.key;
+        match self.sight {
+            Some(sight) => Ok(At { key, sight }),
+            None => Err(SceneError::key(
+                &format!("{key}: kind"),
+                "looks at a picture, and there is none",
+            )),
+        }
+    }
+
+    fn force(&self, kind: &KindText) -> Result<Acting, SceneError> {
+        if asks_inside(kind) {
+            self.closed(kind.word())?;
+        }
+        let region = |region| Acting::new(RegionForce::new(region));
+        Ok(match kind {
+            KindText::Edge(text) if !either(text) => Acting::new(self.seen()?.signed_edge(text)?),
+            KindText::Regions(text) => region(self.seen()?.regions(text)?),
+            KindText::LocalRegions(text) => region(self.seen()?.local_regions(text)?),
+            KindText::Likelihood(text) => region(self.seen()?.likelihood(text)?),
+            KindText::Pressure(text) => Acting::new(self.pressure(text)?),
+            KindText::Gas(text) => {
+                let (k, area) = self.volume(text)?;
+                Acting::new(Pressure::gas(k, area))
+            }
+            KindText::Area(text) => {
+                let (k, area) = self.volume(text)?;
+                Acting::new(Pressure::area(k, area))
+            }
+            KindText::Spring(text) => Acting::new(self.spring(text)?),
+            KindText::Repulsor(text) => Acting::new(self.repulsor(text)?),
+            KindText::Freeze(text) => Acting::new(self.freeze(text)?),
+            KindText::Gravity(text) => {
+                let key = format!("{}: acceleration", self.key);
+                Acting::new(Gravity(number::place(&key, text.acceleration)?))
+            }
+            _ => {
+                let made = self.seen()?.sight.field(self.key, kind)?;
+                let Some(made) = made else {
+                    let message = format!("{} is no field", kind.word());
+                    return Err(SceneError::key(&format!("{}: kind", self.key), message));
+                };
+                Acting::new(ImageForce::new(Arc::new(made.field), Sampling::Bilinear))
+            }
         })
-    };
-    let forces = match &text.kind {
-        KindText::Gravity(g) => {
-            let key = format!("{key}: acceleration");
-            vec![Acting::new(Gravity(number::place(&key, g.acceleration)?))]
-        }
-        kind => {
-            let made = sees()?.field(key, kind)?;
-            let field = made.map(|made| ImageForce::new(Arc::new(made.field), Sampling::Bilinear));
-            field.into_iter().map(Acting::new).collect()
-        }
-    };
+    }
+}
+
+/// Whether edges of both polarities pull: then it is a field whatever the curve.
+fn either(text: &EdgeText) -> bool {
+    matches!(text.polarity, None | Some(PolarityText::Either))
+}
+
+/// Whether a kind asks what is inside the curve.
+const fn asks_inside(kind: &KindText) -> bool {
+    matches!(
+        kind,
+        KindText::Regions(_)
+            | KindText::LocalRegions(_)
+            | KindText::Likelihood(_)
+            | KindText::Pressure(_)
+            | KindText::Gas(_)
+            | KindText::Area(_)
+    )
+}
+
+/// The force of a `[[force]]`, or of a `--force`, with its weight and schedule.
+fn acting(around: &Around<'_>, text: &ForceText) -> Result<Acting, SceneError> {
+    let (key, n) = (around.key, around.nodes.len());
+    let acting = around.force(&text.kind)?;
     let weight = match &text.common.weight {
         Some(weight) => profile(&format!("{key}: weight"), weight, n)?,
         None => Profile::Uniform(1.0),
@@ -185,24 +245,38 @@ pub(crate) fn acting(
         )?),
         None => None,
     };
-    let dressed = |mut acting: Acting| {
-        acting = acting.weighted(weight.clone());
-        match &schedule {
-            Some(schedule) => acting.scheduled(schedule.clone()),
-            None => acting,
-        }
-    };
-    Ok(forces.into_iter().map(dressed).collect())
+    let acting = acting.weighted(weight);
+    Ok(match schedule {
+        Some(schedule) => acting.scheduled(schedule),
+        None => acting,
+    })
 }
 
 /// Whether a kind is a force field that the picture has, whatever the curve.
-pub(crate) const fn is_field(kind: &KindText) -> bool {
-    !matches!(kind, KindText::Gravity(_))
+pub(crate) fn is_field(kind: &KindText) -> bool {
+    match kind {
+        KindText::Edge(text) => either(text),
+        KindText::ColorEdge(_)
+        | KindText::Scales(_)
+        | KindText::Line(_)
+        | KindText::Termination(_)
+        | KindText::Distance(_)
+        | KindText::Gvf(_)
+        | KindText::Vfc(_) => true,
+        _ => false,
+    }
 }
 
-/// Whether a kind looks at the picture.
-pub(crate) const fn looks(kind: &KindText) -> bool {
-    !matches!(kind, KindText::Gravity(_))
+/// Whether a kind pulls by what it sees in the picture.
+pub(crate) fn looks(kind: &KindText) -> bool {
+    is_field(kind)
+        || matches!(
+            kind,
+            KindText::Edge(_)
+                | KindText::Regions(_)
+                | KindText::LocalRegions(_)
+                | KindText::Likelihood(_)
+        )
 }
 
 /// Add the forces of a list to a world, each under a name of its own.
@@ -210,7 +284,8 @@ pub(crate) fn add(
     mut world: World,
     keyed: &[(String, ForceText)],
     sight: Option<&Sight<'_>>,
-    n: usize,
+    nodes: &[DVec2],
+    closed: bool,
 ) -> Result<World, SceneError> {
     let mut taken: BTreeSet<String> = TAKEN.into_iter().map(str::to_owned).collect();
     taken.extend(world.names().map(str::to_owned));
@@ -221,15 +296,19 @@ pub(crate) fn add(
         }
     }
     for (key, text) in keyed {
-        for (i, acting) in acting(key, text, sight, n)?.into_iter().enumerate() {
-            let name = match &text.common.name {
-                Some(name) if i == 0 => name.clone(),
-                Some(name) => free(name, &taken),
-                None => free(text.kind.word(), &taken),
-            };
-            taken.insert(name.clone());
-            world = world.with_acting(acting.named(&name));
-        }
+        let around = Around {
+            key,
+            sight,
+            nodes,
+            closed,
+        };
+        let acting = acting(&around, text)?;
+        let name = match &text.common.name {
+            Some(name) => name.clone(),
+            None => free(text.kind.word(), &taken),
+        };
+        taken.insert(name.clone());
+        world = world.with_acting(acting.named(&name));
     }
     Ok(world)
 }

@@ -1,11 +1,16 @@
 //! Kinds that climb a strength P: `F = gain · ∇P`, the gradient of the energy `−gain · P`.
 
-use field::{EdgeForce, Line, Smoothing};
+use std::sync::Arc;
+
+use field::{EdgeForce, Line, Polarity, SignedEdge, Smoothing};
+use snake::SignedEdgeForce;
 
 use super::{At, Made, NORMAL_AT_0, NORMAL_AT_1, above_nothing};
 use crate::SceneError;
 use crate::build::smoothing;
-use crate::file::{LineText, ScalesText, ShadeText, StrengthText, TerminationText};
+use crate::file::{
+    EdgeText, LineText, PolarityText, ScalesText, ShadeText, StrengthText, TerminationText,
+};
 
 /// What is smoothed already.
 const AS_IT_IS: Smoothing = Smoothing::Binomial(0);
@@ -17,10 +22,24 @@ pub(super) const USUAL_SIGMA: f64 = 3.162_277_660_168_379_5;
 const MOST_SCALES: usize = 32;
 
 impl At<'_> {
-    pub(super) fn edge(&self, text: &StrengthText) -> Result<Made, SceneError> {
+    pub(super) fn edge(&self, text: &EdgeText) -> Result<Made, SceneError> {
         let sigma = self.sigma(text.sigma, USUAL_SIGMA)?;
         let gain = self.edge_gain(text.strength, sigma, self.sight.contrast())?;
         self.climbing(&self.edge_strength(sigma)?, gain)
+    }
+
+    /// Edges of one polarity, by the curve's own normal.
+    pub(super) fn signed_edge(&self, text: &EdgeText) -> Result<SignedEdgeForce, SceneError> {
+        let sigma = self.sigma(text.sigma, USUAL_SIGMA)?;
+        let gain = self.edge_gain(text.strength, sigma, self.sight.contrast())?;
+        let polarity = match text.polarity {
+            Some(PolarityText::DarkToBright) => Polarity::DarkToBright,
+            Some(PolarityText::BrightToDark) => Polarity::BrightToDark,
+            Some(PolarityText::Either) | None => Polarity::Either,
+        };
+        let smoothed = self.smoothed(sigma)?;
+        let edge = SignedEdge::new(&smoothed, AS_IT_IS, polarity, gain).map_err(self.refuse())?;
+        Ok(SignedEdgeForce::new(Arc::new(edge)))
     }
 
     /// |∇(G ∗ I)| over what counts.
