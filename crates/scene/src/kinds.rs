@@ -38,6 +38,7 @@ forces![
     "regions", "what is like the inside into the curve: one mean inside, one outside", "none where nodes are asked";
     "local-regions", "the same with means near each node: uneven light", "none";
     "likelihood", "the same by histograms, Gaussians or mixtures of grey or color", "none where nodes are asked";
+    "texture", "the same by the energies of stripes of every direction and width", "none where nodes are asked";
     "pressure", "a balloon: the same pressure always", "-pressure * area enclosed";
     "gas", "a gas: pressure times area stays", "-pressure * area * ln(area enclosed)";
     "area", "a spring towards an area", "pressure / 2 * (area enclosed - area)^2 / area";

@@ -312,3 +312,144 @@ fn pixels_that_do_not_count_exert_no_force() {
     let report = parse("left.png", "[field]\npasses = 3").unwrap();
     assert_eq!(strongest(&report), 0.0);
 }
+
+/// A bright disc of radius 12 about (32, 30), and a curve of radius `radius` about (31, 30).
+fn disc(radius: f64, lines: &str) -> String {
+    format!(
+        "title = \"t\"\n[picture.drawn]\nsize = [64, 60]\nnoise = 4.0\n\
+         region = {{ circle = {{ center = [32.0, 30.0], radius = 12.0 }} }}\n{lines}\n\
+         [snake]\nnodes = 40\ntopology = \"closed\"\n\
+         start = {{ circle = {{ center = [31.0, 30.0], radius = {radius:?} }} }}\n\
+         [material]\ntether = 0.0\ntension = 2.0\nrigidity = 2.0\n\
+         [densities]\nmass = 1.0\ndamping = 4.0\n[run]\ndt = 0.02\nsteps = 4000\nrest = {{}}\n"
+    )
+}
+
+fn ends_at(radius: f64, lines: &str) -> Vec<f64> {
+    let mut scene = Scene::parse("t", &disc(radius, lines), Path::new(".")).unwrap();
+    let record = scene
+        .run(&mut |_| std::ops::ControlFlow::Continue(()))
+        .unwrap();
+    let nodes = &record.last().unwrap().nodes;
+    nodes
+        .iter()
+        .map(|p| p.distance(DVec2::new(32.0, 30.0)))
+        .collect()
+}
+
+#[test]
+fn regions_find_a_disc_from_inside_and_from_far_outside() {
+    for (kind, from) in [
+        ("regions", 5.0),
+        ("regions", 24.0),
+        ("likelihood", 6.0),
+        ("likelihood", 20.0),
+        ("local-regions", 18.0),
+    ] {
+        let weak = format!("[[force]]\nkind = \"{kind}\"\nstrength = 0.3");
+        for r in ends_at(from, &weak) {
+            // elastic forces of a rest shape this far off leave the border by some tenths
+            assert!((r - 12.0).abs() < 1.5, "{kind} from {from}: {r}");
+        }
+    }
+}
+
+#[test]
+fn a_polarity_takes_its_own_edges_only() {
+    let edge = |polarity: &str| {
+        format!("[[force]]\nkind = \"edge\"\nsigma = 2.0\npolarity = \"{polarity}\"")
+    };
+    let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
+    assert!((mean(&ends_at(15.0, &edge("bright-to-dark"))) - 12.0).abs() < 0.5);
+    assert!((mean(&ends_at(15.0, &edge("either"))) - 12.0).abs() < 0.5);
+    // nobody pulls; the start is at rest
+    assert!((mean(&ends_at(15.0, &edge("dark-to-bright"))) - 15.0).abs() < 1.0);
+}
+
+#[test]
+fn pressures_and_springs_do_what_they_are_called() {
+    let blind = "[field]\ngain = 1e-9\n";
+    let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
+    let start = mean(&ends_at(14.0, blind));
+    let with = |force: &str| ends_at(14.0, &format!("{blind}[[force]]\n{force}"));
+    assert!(mean(&with("kind = \"pressure\"\npressure = 0.2")) > start + 0.5);
+    assert!(mean(&with("kind = \"pressure\"\npressure = -0.1")) < start - 0.3);
+    // bright inside a curve larger than the disc: what differs wants out
+    let judged = "kind = \"pressure\"\npressure = 0.1\ndirection = \"picture\"";
+    assert!(mean(&with(judged)) < start - 0.3);
+    // the area of the start: nothing to do
+    let same = with("kind = \"area\"\npressure = 5.0");
+    assert!((mean(&same) - start).abs() < 0.05);
+    let small = mean(&with("kind = \"area\"\npressure = 50.0\narea = 400.0"));
+    assert!(
+        (small - (400.0 / std::f64::consts::PI).sqrt()).abs() < 1.0,
+        "{small}"
+    );
+    let pulled = with("kind = \"spring\"\nnode = 0\nto = [60.0, 30.0]\nstiffness = 5.0");
+    assert!(pulled[0] > 16.0 && pulled[20] < 16.0, "{pulled:?}");
+    let pushed = with("kind = \"repulsor\"\nat = [40.0, 30.0]\nreach = 9.0\npush = 5.0");
+    assert!(pushed[0] > start + 1.0, "{pushed:?}");
+}
+
+#[test]
+fn curves_that_a_kind_cannot_act_on_are_refused() {
+    for (keys, says) in [
+        ("kind = \"regions\"", "closed curve"),
+        ("kind = \"pressure\"\npressure = 1.0", "closed curve"),
+        ("kind = \"pressure\"", "missing field"),
+        (
+            "kind = \"spring\"\nnode = 5\nto = [0.0, 0.0]\nstiffness = 1.0",
+            "force 0: node",
+        ),
+        (
+            "kind = \"spring\"\nnode = 1\nstiffness = 1.0",
+            "force 0: to",
+        ),
+        (
+            "kind = \"spring\"\nto = [0.0, 0.0]\nstiffness = 1.0",
+            "force 0: node",
+        ),
+        (
+            "kind = \"spring\"\nnode = 1\npath = []\nstiffness = 1.0",
+            "force 0: path",
+        ),
+        (
+            "kind = \"repulsor\"\nat = [0.0, 0.0]\nreach = 0.0\npush = 1.0",
+            "force 0: reach",
+        ),
+        (
+            "kind = \"freeze\"\nstretch = [3, 2]\nstiffness = 1.0",
+            "force 0: stretch",
+        ),
+        (
+            "kind = \"freeze\"\nstretch = [3, 4]\nstiffness = 0.0",
+            "force 0: stiffness",
+        ),
+        ("kind = \"likelihood\"\nclasses = 0", "closed curve"),
+    ] {
+        refused(&format!("[[force]]\n{keys}"), &[says]);
+    }
+    for (keys, says) in [
+        ("kind = \"likelihood\"\nclasses = 0", "force 0: classes"),
+        (
+            "kind = \"likelihood\"\ndensity = \"mixture\"\ncomponents = 1",
+            "force 0: components",
+        ),
+        (
+            "kind = \"likelihood\"\nbandwidth = 0.0",
+            "force 0: bandwidth",
+        ),
+        ("kind = \"texture\"\nsigmas = [0.0]", "force 0: sigmas"),
+        ("kind = \"local-regions\"\nradius = -1.0", "force 0: radius"),
+        (
+            "kind = \"gas\"\npressure = 1.0\narea = 0.0",
+            "force 0: area",
+        ),
+    ] {
+        let text = disc(14.0, &format!("[[force]]\n{keys}"));
+        let error = Scene::parse("t", &text, Path::new("."))
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains(says), "{error}");
+    }
+}

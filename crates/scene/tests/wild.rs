@@ -141,6 +141,63 @@ knee = 0.1
 kind = "vfc"
 width = 3.0
 [[force]]
+kind = "edge"
+sigma = 1.5
+polarity = "bright-to-dark"
+[[force]]
+kind = "regions"
+sigma = 1.0
+strength = 0.1
+[[force]]
+kind = "local-regions"
+strength = 0.1
+radius = 4.0
+[[force]]
+kind = "likelihood"
+strength = 0.1
+classes = 16
+bandwidth = 5.0
+[[force]]
+kind = "likelihood"
+density = "mixture"
+components = 2
+[[force]]
+kind = "texture"
+sigmas = [1.0]
+classes = 8
+[[force]]
+kind = "pressure"
+pressure = 0.1
+[[force]]
+kind = "gas"
+pressure = 0.1
+area = 70.0
+[[force]]
+kind = "area"
+pressure = 0.1
+area = 70.0
+[[force]]
+kind = "spring"
+node = 3
+to = [1.0, 2.0]
+stiffness = 0.1
+damping = 0.1
+[[force]]
+kind = "spring"
+from = [9.0, 9.0]
+path = [[0.0, 1.0, 2.0], [0.1, 2.0, 3.0]]
+stiffness = 0.1
+[[force]]
+kind = "repulsor"
+at = [8.0, 7.0]
+reach = 3.0
+push = 0.1
+[[force]]
+kind = "freeze"
+stretch = [7, 1]
+stiffness = 0.1
+damping = 0.1
+[[force]]
 kind = "gravity"
 acceleration = [0.0, 0.1]
 [snake]

@@ -38,13 +38,20 @@ pub(super) fn company(
         };
         let shape = body::body(&own, rules, folder).map_err(within)?;
         let start = body::start(&own, &shape, rules, folder).map_err(within)?;
-        // the same forces, unless their weights are meant for another number of nodes
-        let same = shape.len() == first.body().len();
+        // the same forces, unless their weights are meant for another number of nodes or they know the curve
+        let same = shape.len() == first.body().len() && !force::remembers(&own.force);
         let surroundings = if same {
             first.world().clone()
         } else {
             let mut unsaid = Vec::new();
-            let world = world::world(&own, rules, picture, shape.len(), &mut unsaid);
+            let world = world::world(
+                &own,
+                rules,
+                picture,
+                &start.x,
+                shape.topology.is_closed(),
+                &mut unsaid,
+            );
             world.map_err(within)?.0
         };
         let snake = Snake::new(shape, surroundings).map_err(|e| within(refused("snake", &e)))?;

@@ -65,6 +65,7 @@ kinds![
     "regions" Regions(RegionsText),
     "local-regions" LocalRegions(LocalRegionsText),
     "likelihood" Likelihood(LikelihoodText),
+    "texture" Texture(TextureText),
     "pressure" Pressure(PressureText),
     "gas" Gas(AreaText),
     "area" Area(AreaText),
@@ -257,6 +258,14 @@ pub(crate) struct LikelihoodText {
     pub density: Option<DensityText>,
     pub bandwidth: Option<f64>,
     pub components: Option<usize>,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct TextureText {
+    pub sigmas: Option<Vec<f64>>,
+    pub strength: Option<f64>,
+    pub classes: Option<usize>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]

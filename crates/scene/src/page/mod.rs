@@ -70,7 +70,14 @@ impl Fields {
             parts: Vec::new(),
         };
         let (width, height) = picture.size();
-        sheet.begin("The picture", format!("{width} × {height} pixels"));
+        let mut note = format!("{width} × {height} pixels");
+        if let Ok(scale) = field::image_scale(&picture.levels) {
+            note.push_str(&format!(
+                ". Noise {:.2}, strong edges {:.1} high and {:.2} pixels wide (σ), in grey levels of 0 to 255",
+                scale.noise, scale.contrast, scale.blur
+            ));
+        }
+        sheet.begin("The picture", note);
         sheet.show("0-picture", "grey levels", &paint::grey(&picture.levels))?;
         if self.stages {
             sheet.stages(smoothing)?;

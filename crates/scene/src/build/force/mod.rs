@@ -179,6 +179,7 @@ impl<'a> Around<'a> {
             KindText::Regions(text) => region(self.seen()?.regions(text)?),
             KindText::LocalRegions(text) => region(self.seen()?.local_regions(text)?),
             KindText::Likelihood(text) => region(self.seen()?.likelihood(text)?),
+            KindText::Texture(text) => region(self.seen()?.texture(text)?),
             KindText::Pressure(text) => Acting::new(self.pressure(text)?),
             KindText::Gas(text) => {
                 let (k, area) = self.volume(text)?;
@@ -219,6 +220,7 @@ const fn asks_inside(kind: &KindText) -> bool {
         KindText::Regions(_)
             | KindText::LocalRegions(_)
             | KindText::Likelihood(_)
+            | KindText::Texture(_)
             | KindText::Pressure(_)
             | KindText::Gas(_)
             | KindText::Area(_)
@@ -276,7 +278,18 @@ pub(crate) fn looks(kind: &KindText) -> bool {
                 | KindText::Regions(_)
                 | KindText::LocalRegions(_)
                 | KindText::Likelihood(_)
+                | KindText::Texture(_)
         )
+}
+
+/// Whether one of these forces keeps something of the curve it was made for.
+pub(crate) fn remembers(list: &[ForceText]) -> bool {
+    list.iter().any(|force| {
+        matches!(
+            force.kind,
+            KindText::Gas(_) | KindText::Area(_) | KindText::Spring(_) | KindText::Freeze(_)
+        )
+    })
 }
 
 /// Add the forces of a list to a world, each under a name of its own.

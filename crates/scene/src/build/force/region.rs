@@ -10,7 +10,7 @@ use glam::DVec2;
 
 use super::{At, above_nothing};
 use crate::SceneError;
-use crate::file::{DensityText, LikelihoodText, LocalRegionsText, RegionsText};
+use crate::file::{DensityText, LikelihoodText, LocalRegionsText, RegionsText, TextureText};
 
 /// σ of a region force unless given: it averages over areas anyway.
 const USUAL_SIGMA: f64 = 1.0;
@@ -23,6 +23,9 @@ const NATS: f64 = 3.0;
 
 /// Classes that pixels are sorted into unless given.
 const USUAL_CLASSES: usize = 64;
+
+/// The same for textures.
+const TEXTURE_CLASSES: usize = 32;
 
 impl At<'_> {
     /// The channels to look at, smoothed: colors if there are and nobody wants grey.
@@ -109,6 +112,24 @@ impl At<'_> {
         let gain = self.pull(text.strength)? / NATS;
         let regions = LikelihoodRegions::new(&classes, density, gain);
         Ok(Arc::new(regions.map_err(at("components"))?))
+    }
+}
+
+impl At<'_> {
+    pub(super) fn texture(&self, text: &TextureText) -> Result<Arc<dyn Region>, SceneError> {
+        let usual = vec![1.5, 3.0];
+        let sigmas = self.sigmas(text.sigmas.as_ref().unwrap_or(&usual))?;
+        let picture = self.sight.picture;
+        let channels = field::texture_channels(&picture.levels, sigmas).map_err(self.refuse())?;
+        let masked: Result<Vec<MaskedImage>, _> =
+            channels.iter().map(|c| picture.masked(c)).collect();
+        let key = self.key("classes");
+        let classes = text.classes.unwrap_or(TEXTURE_CLASSES);
+        let classes = Classes::clusters(&masked.map_err(self.refuse())?, classes)
+            .map_err(|e| SceneError::key(&key, e))?;
+        let gain = self.pull(text.strength)? / NATS;
+        let regions = LikelihoodRegions::new(&classes, Density::Gaussian, gain);
+        Ok(Arc::new(regions.map_err(self.refuse())?))
     }
 }
 

@@ -79,9 +79,8 @@ impl At<'_> {
         self.climbing(&strength, gain)
     }
 
-    pub(super) fn scales(&self, text: &ScalesText) -> Result<Made, SceneError> {
-        let usual = vec![8.0, 4.0, 2.0];
-        let sigmas = text.sigmas.as_ref().unwrap_or(&usual);
+    /// Several σ, each checked against the size of the picture.
+    pub(super) fn sigmas<'a>(&self, sigmas: &'a [f64]) -> Result<&'a [f64], SceneError> {
         let key = self.key("sigmas");
         if sigmas.is_empty() || sigmas.len() > MOST_SCALES {
             let message = format!("1 to {MOST_SCALES} numbers would do, got {}", sigmas.len());
@@ -90,6 +89,12 @@ impl At<'_> {
         for &sigma in sigmas {
             smoothing(&key, Smoothing::Gaussian(sigma), self.sight.picture)?;
         }
+        Ok(sigmas)
+    }
+
+    pub(super) fn scales(&self, text: &ScalesText) -> Result<Made, SceneError> {
+        let usual = vec![8.0, 4.0, 2.0];
+        let sigmas = self.sigmas(text.sigmas.as_ref().unwrap_or(&usual))?;
         let finest = sigmas.iter().copied().fold(f64::INFINITY, f64::min);
         // the strength of a scale counts √σ times
         let gain = self.edge_gain(text.strength, finest, self.sight.contrast())? / finest.sqrt();
