@@ -118,11 +118,11 @@ pub(crate) fn rooted(grid: &Grid) -> Grid {
     grid.mapv(|v| v.abs().sqrt().copysign(v))
 }
 
-/// The picture half way to white, as a ground for what is drawn on it.
+/// The picture two thirds of the way to white, as a ground for what is drawn on it.
 pub(crate) fn faded(image: &RgbImage) -> RgbImage {
     let mut pale = image.clone();
     for pixel in pale.pixels_mut() {
-        pixel.0 = pixel.0.map(|v| 127 + v / 2);
+        pixel.0 = pixel.0.map(|v| 170 + v / 3);
     }
     pale
 }

@@ -248,7 +248,7 @@ fn arrows(picture: &Picture, force: &ForceField) -> RgbImage {
     let pitch = (width.max(height) / 40).max(4);
     // so many pixels that an arrow is seen to be one
     let zoom = (20.0 / pitch as f64).ceil();
-    let mut canvas = paint::enlarged(&paint::faded(&picture.display), zoom);
+    let mut canvas = paint::enlarged(&paint::faded(&paint::grey(&picture.levels)), zoom);
     let largest = force.largest().max(f64::MIN_POSITIVE);
     for row in (pitch / 2..height).step_by(pitch) {
         for column in (pitch / 2..width).step_by(pitch) {
@@ -267,7 +267,7 @@ fn arrows(picture: &Picture, force: &ForceField) -> RgbImage {
                 (tip, tip + back + wing),
                 (tip, tip + back - wing),
             ] {
-                paint::draw_curve(&mut canvas, &[a * zoom, b * zoom], false, 1.2, [230, 97, 1]);
+                paint::draw_curve(&mut canvas, &[a * zoom, b * zoom], false, 1.2, [200, 60, 0]);
             }
         }
     }
