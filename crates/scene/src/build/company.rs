@@ -39,7 +39,7 @@ pub(super) fn company(
         let shape = body::body(&own, rules, folder).map_err(within)?;
         let start = body::start(&own, &shape, rules, folder).map_err(within)?;
         // the same forces, unless their weights are meant for another number of nodes or they know the curve
-        let same = shape.len() == first.body().len() && !force::remembers(&own.force);
+        let same = shape.len() == first.body().len() && !super::force::remembers(&own.force);
         let surroundings = if same {
             first.world().clone()
         } else {

@@ -91,7 +91,7 @@ impl At<'_> {
                 width: number::above_zero(&self.key("width"), width)?,
             },
             (exponent, None) => Falloff::Power {
-                exponent: self.above_zero("exponent", exponent, 2.0)?,
+                exponent: self.above_zero("exponent", exponent, 3.0)?,
             },
         };
         let (width, height) = self.sight.picture.size();
