@@ -2,8 +2,8 @@
 
 use crate::Experiment;
 use crate::experiments::{
-    angle, apple, atlas, ball, corners, damping, decomposition, disc, ends, energy, force_field,
-    forces, matrix, profiles, signal, smoothing, time_step,
+    angle, apple, atlas, ball, corners, curvature, damping, decomposition, disc, ends, energy,
+    force_field, forces, matrix, profiles, rest_traps, signal, smoothing, soft, time_step,
 };
 
 /// Every experiment. A new one is added here and nowhere else.
@@ -47,6 +47,14 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &atlas::MASS,
     &atlas::STIFFNESS,
     &atlas::STEP,
+    &soft::PILE,
+    &soft::ROPE,
+    &soft::FUNNEL,
+    &soft::DENT,
+    &soft::RESPACING,
+    &soft::LEDGER,
+    &rest_traps::REST,
+    &curvature::CURVATURE,
 ];
 
 /// The experiment of that name.

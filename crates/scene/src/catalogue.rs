@@ -33,6 +33,9 @@ scenes![
     "apple-closed",
     "apple-report",
     "pile",
+    "rope",
+    "funnel",
+    "dented-ring",
 ];
 
 const CONTOURS: [(&str, &str); 5] = [
