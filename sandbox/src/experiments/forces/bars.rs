@@ -124,8 +124,8 @@ pub(crate) const BARS: Experiment = Experiment {
             source: "theory",
             judge: |r| {
                 let (unsigned, signed) = (
-                    r.number("corrected: zeros that attract, bar of 8 px")?,
-                    r.number("signed edge: zeros that attract, bar of 8 px")?,
+                    r.number("corrected: zeros that attract; bar of 8 px")?,
+                    r.number("signed edge: zeros that attract; bar of 8 px")?,
                 );
                 Ok(Finding::new(
                     unsigned > 1.5 && signed < 1.5,
@@ -291,7 +291,7 @@ fn run() -> Result<Record, SandboxError> {
             column.push(last - right);
             if width == 8 {
                 record.note(
-                    format!("{name}: zeros that attract, bar of 8 px"),
+                    format!("{name}: zeros that attract; bar of 8 px"),
                     real(found.len()),
                     "",
                     Tolerance::EXACT,

@@ -34,7 +34,9 @@ fn evened(id: &'static str, field: &ForceField) -> Result<ForceField, SandboxErr
     ForceField::from_components(&x, &y).map_err(SandboxError::refused(id))
 }
 
-/// Two regions as a force on nodes, along the outward normal.
+/// Two regions as a force on nodes, along the outward normal, as strong on a stretched curve as on any: the push of
+/// [`snake::RegionForce`] is one of the curve's present length, and a circle that grows to twelve times its own would feel
+/// twelve times the force.
 #[derive(Debug, Clone)]
 struct Regions {
     regions: TwoRegions,
