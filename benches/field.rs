@@ -1,21 +1,31 @@
 //! From pixels to forces, and reading forces between pixels.
 //!
 //! `smoothing`: what do twenty passes along both axes cost? `force-field`: each pipeline beside a loop that only
-//! reads the picture and writes two floats a pixel, the floor for all of them. `sampling`: one point at a time.
+//! reads the picture and writes two floats a pixel, the floor for all of them (12 bytes a pixel for `f32`, 9 for
+//! 8 bits); one 8192² round is added where `SNAKE_BENCH_LARGE` is set. `reach`: what σ costs on either side of the
+//! switch to thinned-out lines. `sampling`: 1000 points one at a time, and all at once by each rule, with and without the
+//! slope; 16 bytes of field twice a point (bilinear) or 32 four times (bicubic) in `f32`. `lazy`: one contour in a
+//! large picture, tiles and all. What was measured: `docs/speed.md`.
 
 use criterion::measurement::WallTime;
 use criterion::{
     BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main,
 };
 use field::{
-    EdgeForce, FastForce, Grid, REPORT_GAIN, REPORT_PASSES, REPORT_SCALE, Recipe, Smoothing,
-    binomial_x, binomial_y, edge_force, literal, report_force, signal,
+    EdgeForce, FastForce, Grid, Interpolation, REPORT_GAIN, REPORT_PASSES, REPORT_SCALE, Recipe,
+    Smoothing, binomial_x, binomial_y, edge_force, literal, report_force, signal,
 };
-use glam::DVec2;
+use glam::{DMat2, DVec2};
 use ndarray::Array2;
 use std::hint::black_box;
 
 const SIDES: [usize; 4] = [128, 512, 1024, 2048];
+
+/// Added where `SNAKE_BENCH_LARGE` is set: it takes two gigabytes and a minute.
+const LARGEST_SIDE: usize = 8192;
+
+/// The `f64` pipelines are timed up to here: they keep every stage.
+const LARGEST_DOUBLE: usize = 2048;
 
 /// The literal program is timed up to here: beyond, a single run takes seconds.
 const LARGEST_LITERAL: usize = 512;
@@ -85,10 +95,10 @@ fn force_field(criterion: &mut Criterion) {
         scale: REPORT_SCALE,
         gain: REPORT_GAIN,
     };
-    for side in SIDES {
+    let large = std::env::var_os("SNAKE_BENCH_LARGE").map(|_| LARGEST_SIDE);
+    for side in SIDES.into_iter().chain(large) {
         let bytes = picture(side);
         let (words, floats) = (bytes.mapv(u16::from), bytes.mapv(f32::from));
-        let image: Grid = bytes.mapv(f64::from);
         group.throughput(Throughput::Elements((side * side) as u64));
 
         let mut forces = vec![[0.0; 2]; side * side];
@@ -115,15 +125,19 @@ fn force_field(criterion: &mut Criterion) {
             group.bench_function(BenchmarkId::new(name, side), |bench| {
                 bench.iter(|| fast.field_into(black_box(floats.view()), &mut field));
             });
-            if name == "fused-report" {
-                group.bench_function(BenchmarkId::new("fused-report-u8", side), |bench| {
+            if threads == 1 {
+                group.bench_function(BenchmarkId::new(format!("{name}-u8"), side), |bench| {
                     bench.iter(|| fast.field_into(black_box(bytes.view()), &mut field));
                 });
-                group.bench_function(BenchmarkId::new("fused-report-u16", side), |bench| {
+                group.bench_function(BenchmarkId::new(format!("{name}-u16"), side), |bench| {
                     bench.iter(|| fast.field_into(black_box(words.view()), &mut field));
                 });
             }
         }
+        if side > LARGEST_DOUBLE {
+            continue;
+        }
+        let image: Grid = bytes.mapv(f64::from);
         group.bench_function(BenchmarkId::new("report", side), |bench| {
             bench
                 .iter(|| report_force(black_box(&image), REPORT_PASSES, REPORT_SCALE, REPORT_GAIN));
@@ -144,6 +158,51 @@ fn force_field(criterion: &mut Criterion) {
             });
         }
     }
+    group.finish();
+}
+
+/// The corrected recipe on 512² pixels, below the switch (σ ≈ 18 px) and above it.
+fn reach(criterion: &mut Criterion) {
+    let mut group = group(criterion, "reach");
+    let image = picture(512);
+    group.throughput(Throughput::Elements(512 * 512));
+    for sigma in [1.0, 3.2, 10.0, 17.0, 20.0, 40.0, 80.0] {
+        let rule = EdgeForce {
+            smoothing: Smoothing::Gaussian(sigma),
+            gain: 1.0,
+        };
+        let Ok(mut fast) = FastForce::new(Recipe::Edge(rule), 1) else {
+            continue;
+        };
+        group.bench_function(BenchmarkId::new("corrected", sigma), |bench| {
+            bench.iter(|| fast.field(black_box(image.view())));
+        });
+    }
+    group.finish();
+}
+
+/// A contour 100 px across in 4096² pixels, from nothing: at most a handful of tiles.
+fn lazy(criterion: &mut Criterion) {
+    let mut group = group(criterion, "lazy");
+    let rule = EdgeForce::as_strong_as_the_report();
+    let image = picture(4096);
+    let points: Vec<DVec2> = (0..300)
+        .map(|i| DVec2::splat(2000.0) + 50.0 * DVec2::from_angle(f64::from(i) * 0.021))
+        .collect();
+    let mut forces = vec![DVec2::ZERO; points.len()];
+    group.bench_function("one-cell-in/4096", |bench| {
+        bench.iter_batched(
+            || field::lazy_force(image.clone(), &Recipe::Edge(rule)),
+            |field| {
+                if let Ok(field) = &field {
+                    field.sample_into(&points, Interpolation::Bilinear, &mut forces);
+                }
+                // dropped outside: giving the picture back is not part of it
+                field
+            },
+            criterion::BatchSize::PerIteration,
+        );
+    });
     group.finish();
 }
 
@@ -182,6 +241,25 @@ fn sampling(criterion: &mut Criterion) {
                 },
             );
         }
+        let (mut forces, mut slopes) = (vec![DVec2::ZERO; 1000], vec![DMat2::ZERO; 1000]);
+        for (rule_name, rule) in [
+            ("bilinear", Interpolation::Bilinear),
+            ("bicubic", Interpolation::Bicubic),
+        ] {
+            for (name, field) in [("f64", &double), ("f32", &single), ("lazy", &lazy)] {
+                let id = BenchmarkId::new(format!("many-{rule_name}-{name}"), side);
+                group.bench_function(id, |bench| {
+                    bench.iter(|| field.sample_into(black_box(&points), rule, &mut forces));
+                });
+                let id = BenchmarkId::new(format!("many-{rule_name}-slope-{name}"), side);
+                group.bench_function(id, |bench| {
+                    bench.iter(|| {
+                        let (forces, slopes) = (&mut forces, &mut slopes);
+                        field.sample_with_slope_into(black_box(&points), rule, forces, slopes);
+                    });
+                });
+            }
+        }
         group.bench_function(BenchmarkId::new("report-f64", side), |bench| {
             bench.iter(|| {
                 let forces = black_box(&points)
@@ -194,5 +272,5 @@ fn sampling(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, smoothing, force_field, sampling);
+criterion_group!(benches, smoothing, force_field, reach, sampling, lazy);
 criterion_main!(benches);

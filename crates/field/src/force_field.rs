@@ -95,6 +95,13 @@ impl ForceField {
         }
     }
 
+    /// Replaces x components by those of another `f32` field of this shape.
+    pub(crate) fn take_x_from(&mut self, other: &Self) {
+        if let (Forces::Single(forces), Forces::Single(other)) = (&mut self.forces, &other.forces) {
+            forces.zip_mut_with(other, |force, other| force[0] = other[0]);
+        }
+    }
+
     /// A field of tiles.
     pub(crate) fn tiles(tiles: Arc<dyn TileSource>) -> Self {
         Self {

@@ -22,9 +22,9 @@ pub use plan::Recipe;
 
 use crate::error::FieldError;
 use crate::force_field::ForceField;
-use crate::grid::{Grid, admit};
+use crate::grid::Grid;
 use crate::smooth::wide::Wide;
-use crate::{EdgeForce, Smoothing, edge_force, report_force};
+use crate::{EdgeForce, Smoothing};
 use ndarray::{Array2, ArrayView2};
 use plan::Plan;
 use std::sync::{Arc, Mutex};
@@ -52,7 +52,7 @@ pub fn fast_force<P: Pixel>(
 /// less than 1 MiB a thread (tested). Any number of threads gives the same bytes.
 ///
 /// A filter beyond σ ≈ 18 px does not fit the tiles. Then the picture is smoothed on thinned-out lines in `f64`, on one
-/// thread and in the memory of several grids, at a cost that no longer grows with σ; the bound above still holds
+/// thread and in the memory of several grids, before it goes through the tiles, at a cost that no longer grows with σ; the bound above still holds
 /// (tested), though no wave is smoothed better than to 1e-6 of its amplitude.
 #[derive(Debug)]
 pub struct FastForce {
@@ -103,7 +103,7 @@ impl FastForce {
             return Err(FieldError::Empty { width, height });
         }
         let Some(plan) = &self.plan else {
-            *field = wide_force(image, &self.recipe)?;
+            *field = wide_force(image, &self.recipe, self.workers.len())?;
             return Ok(());
         };
         let mut forces = field.take_single((height, width))?;
@@ -205,32 +205,59 @@ pub fn lazy_force<P: Pixel>(image: Array2<P>, recipe: &Recipe) -> Result<ForceFi
     Ok(ForceField::tiles(Arc::new(lazy::Tiles::new(image, plan))))
 }
 
-/// The `f64` pipeline behind a [`Wide`] smoothing, for filters too wide for the tiles.
+/// Smoothing too wide for the tiles, then the rest of the recipe in them.
 fn wide_force<P: Pixel>(
     image: ArrayView2<'_, P>,
     recipe: &Recipe,
+    threads: usize,
 ) -> Result<ForceField, FieldError> {
-    let image: Grid = image.mapv(|pixel| f64::from(pixel.level()));
-    match *recipe {
+    let (smoothing, rest) = match *recipe {
         Recipe::Report {
             passes,
             scale,
             gain,
         } => {
-            let image = admit(&image, scale)?;
-            let wide = Wide::new(Smoothing::Binomial(passes));
-            let component = |smoothed: &Grid| report_force(smoothed, 0, 1.0, gain);
-            let x = component(&wide.along_x(&image))?.components().0;
-            let y = component(&wide.along_y(&image))?.components().1;
-            ForceField::from_components(&x, &y)
+            let passes = Smoothing::Binomial(passes);
+            let rest = Recipe::Report {
+                passes: 0,
+                scale,
+                gain,
+            };
+            (passes, rest)
         }
         Recipe::Edge(EdgeForce { smoothing, gain }) => {
-            let wide = Wide::new(smoothing);
-            let smoothed = wide.along_y(&wide.along_x(&admit(&image, 1.0)?));
-            let smoothing = Smoothing::Binomial(0);
-            edge_force(&smoothed, &EdgeForce { smoothing, gain })
+            let rest = EdgeForce {
+                smoothing: Smoothing::Binomial(0),
+                gain,
+            };
+            (smoothing, Recipe::Edge(rest))
         }
+    };
+    let mut fast = FastForce::new(rest, threads)?;
+    let most = fast.plan.as_ref().map_or(f32::MAX, |p| p.largest_pixel);
+    if let Some(error) = first_bad_pixel(&image, most) {
+        return Err(error);
     }
+    let image: Grid = image.mapv(|pixel| f64::from(pixel.level()));
+    let wide = Wide::new(smoothing);
+    let mut field = |smoothed: &Grid| fast.field(smoothed.mapv(narrow).view());
+    match *recipe {
+        Recipe::Report { .. } => {
+            let x = field(&wide.along_x(&image))?;
+            let mut y = field(&wide.along_y(&image))?;
+            y.take_x_from(&x);
+            Ok(y)
+        }
+        Recipe::Edge(_) => field(&wide.along_y(&wide.along_x(&image))),
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounding to f32 is the point"
+)]
+fn narrow(level: f64) -> f32 {
+    level as f32
 }
 
 /// The first pixel in reading order that is not finite or above `most`.

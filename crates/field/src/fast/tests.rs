@@ -1,4 +1,5 @@
 use super::*;
+use crate::{edge_force, report_force};
 use glam::DVec2;
 use ndarray::s;
 use proptest::prelude::*;
