@@ -3,7 +3,7 @@
 use crate::Experiment;
 use crate::experiments::{
     angle, apple, atlas, ball, corners, curvature, damping, decomposition, disc, ends, energy,
-    force_field, forces, matrix, profiles, rest_traps, signal, smoothing, soft, time_step,
+    force_field, forces, matrix, profiles, rest_traps, signal, smoothing, soft, time_step, turning,
 };
 
 /// Every experiment. A new one is added here and nowhere else.
@@ -55,6 +55,7 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &soft::LEDGER,
     &rest_traps::REST,
     &curvature::CURVATURE,
+    &turning::TURNING,
 ];
 
 /// The experiment of that name.

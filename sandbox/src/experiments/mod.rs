@@ -24,3 +24,4 @@ pub(crate) mod signal;
 pub(crate) mod smoothing;
 pub(crate) mod soft;
 pub(crate) mod time_step;
+pub(crate) mod turning;

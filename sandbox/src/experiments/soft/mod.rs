@@ -8,6 +8,7 @@ mod pile;
 mod respacing;
 mod rope;
 
+pub(crate) use course::{keep_shots, picture, shots, times};
 pub(crate) use dent::DENT;
 pub(crate) use funnel::FUNNEL;
 pub(crate) use ledger::LEDGER;
