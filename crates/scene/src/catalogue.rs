@@ -36,6 +36,8 @@ scenes![
     "rope",
     "funnel",
     "dented-ring",
+    "coarse-to-fine",
+    "drowned-in-noise",
 ];
 
 const CONTOURS: [(&str, &str); 5] = [
