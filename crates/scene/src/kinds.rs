@@ -27,7 +27,7 @@ macro_rules! forces {
 }
 
 forces![
-    "edge", "edges of the grey picture, of either polarity", "-|grad(G*I)|";
+    "edge", "edges of the grey picture, of both polarities or one", "-|grad(G*I)|; none for one polarity";
     "color-edge", "edges in color, those between colors of equal grey too", "-sqrt(l1-l2) of the structure tensor";
     "scales", "edges at several scales at once", "-max over the scales of sqrt(s)|grad(G_s*I)|";
     "line", "bright or dark lines", "-(G*I), or that itself";

@@ -127,7 +127,8 @@ impl At<'_> {
         let classes = text.classes.unwrap_or(TEXTURE_CLASSES);
         let classes = Classes::clusters(&masked.map_err(self.refuse())?, classes)
             .map_err(|e| SceneError::key(&key, e))?;
-        let gain = self.pull(text.strength)? / NATS;
+        // each channel has its say in the likelihood, and they mostly say the same
+        let gain = self.pull(text.strength)? / (NATS * channels.len() as f64);
         let regions = LikelihoodRegions::new(&classes, Density::Gaussian, gain);
         Ok(Arc::new(regions.map_err(self.refuse())?))
     }
