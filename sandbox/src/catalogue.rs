@@ -51,6 +51,7 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &soft::ROPE,
     &soft::FUNNEL,
     &soft::DENT,
+    &soft::SLOPE,
     &soft::RESPACING,
     &soft::LEDGER,
     &rest_traps::REST,

@@ -36,6 +36,7 @@ scenes![
     "rope",
     "funnel",
     "dented-ring",
+    "slope",
     "coarse-to-fine",
     "drowned-in-noise",
 ];

@@ -144,6 +144,8 @@ fn refused(error: &CrowdError) -> SceneError {
                 "the stiffness of contacts" => "contact.stiffness",
                 "the damping of contacts" => "contact.damping",
                 "the friction of contacts" => "contact.friction",
+                "the friction at walls" => "contact.wall-friction",
+                "the stick of contacts" => "contact.stick",
                 "the gap of contacts" => "contact.gap",
                 "the stop of contacts" => "contact.stop",
                 "the stretch to re-space at" => "upkeep.stretch",

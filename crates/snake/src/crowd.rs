@@ -6,6 +6,7 @@
 //! damping and friction.
 
 mod contact;
+mod footing;
 mod upkeep;
 
 pub use contact::Contact;
@@ -19,7 +20,8 @@ use outline::OutlineError;
 use crate::rest::{Verdict, Watch};
 use crate::run::FAR;
 use crate::{Energies, Ledger, Rest, Snake, SnakeError};
-use contact::Meetings;
+use contact::{Half, Meetings};
+use footing::Footings;
 
 /// One snake of a crowd.
 #[derive(Debug)]
@@ -121,6 +123,7 @@ pub struct Crowd {
     upkeep: Upkeep,
     rest: Option<Rest>,
     meetings: Meetings,
+    footings: Footings,
     events: Vec<Event>,
     next_id: usize,
     t: f64,
@@ -154,6 +157,7 @@ impl Crowd {
             upkeep,
             rest: None,
             meetings: Meetings::default(),
+            footings: Footings::default(),
             events: Vec::new(),
             next_id: 0,
             t,
@@ -245,7 +249,7 @@ impl Crowd {
     /// The first snake that could not make its step, or whose curve could not be kept in order.
     pub fn step(&mut self) -> Result<(), CrowdError> {
         let half = 0.5 * self.timing.dt;
-        self.kick(half)?;
+        self.kick(half, Half::First)?;
         for member in &mut self.members {
             let id = member.id;
             let fault = |fault| CrowdError::Fault { member: id, fault };
@@ -269,7 +273,7 @@ impl Crowd {
         self.step += 1;
         self.t = self.members.first().map_or(self.t, |member| member.state.t);
         self.meet(Some(self.timing.dt))?;
-        self.kick(half)?;
+        self.kick(half, Half::Second)?;
         if self.upkeep.is_due(self.step) {
             self.keep_up()?;
         }
@@ -277,10 +281,12 @@ impl Crowd {
         Ok(())
     }
 
-    /// Watch for rest from now on. Where curves rub on each other, what friction holds cannot be told from
-    /// what is out of balance, and rest is a matter of motion alone.
+    /// Watch for rest from now on. Where curves rub on each other without sticking, what friction holds cannot be
+    /// told from what is out of balance, and rest is a matter of motion alone.
     pub fn watch(&mut self, rest: Rest) {
-        let rubs = self.contact.is_some_and(|contact| contact.friction > 0.0);
+        let rubs = self
+            .contact
+            .is_some_and(|contact| contact.friction > 0.0 && contact.stick <= 0.0);
         let balance = if rubs { f64::INFINITY } else { rest.balance };
         self.rest = Some(Rest { balance, ..rest });
         for member in &mut self.members {
@@ -297,17 +303,17 @@ impl Crowd {
     /// Look at every snake, if asked to.
     fn look(&mut self) {
         let Some(rest) = self.rest else { return };
-        let each = self.members.iter().map(|m| m.snake.body().spacing);
-        let spacings: Vec<f64> = each.collect();
+        let mut pushes: &mut [Vec<DVec2>] = &mut [];
+        if let Some(contact) = &self.contact {
+            pushes = self.meetings.forces(contact, &self.members);
+            self.footings.add_forces(contact, &self.members, pushes);
+        }
         for (k, member) in self.members.iter_mut().enumerate() {
             let (snake, state) = (&mut member.snake, &member.state);
             let watch = member
                 .watch
                 .get_or_insert_with(|| Watch::new(rest, snake, state));
-            let push = self.contact.as_ref().map_or(&[][..], |contact| {
-                self.meetings
-                    .force_on(contact, k, |k| spacings[k], state.len())
-            });
+            let push = pushes.get(k).map_or(&[][..], Vec::as_slice);
             // what it found holds until another window ends with something else
             if let Some(verdict) = watch.look(snake, state, push) {
                 member.calm = verdict != Verdict::Moving;
@@ -319,18 +325,20 @@ impl Crowd {
     fn meet(&mut self, since: Option<f64>) -> Result<(), CrowdError> {
         if let Some(contact) = &self.contact {
             self.lost += self.meetings.find(contact, &self.members, since)?;
+            self.lost += self.footings.find(contact, &self.members, since.is_none());
         }
         Ok(())
     }
 
     /// Let the contacts push for that long.
-    fn kick(&mut self, time: f64) -> Result<(), CrowdError> {
+    fn kick(&mut self, time: f64, half: Half) -> Result<(), CrowdError> {
         let Some(contact) = &self.contact else {
             return Ok(());
         };
-        self.lost += self.meetings.kick(contact, &mut self.members, time);
+        self.lost += self.meetings.kick(contact, &mut self.members, time, half);
+        self.lost += self.footings.kick(contact, &mut self.members, time, half);
         for (k, member) in self.members.iter_mut().enumerate() {
-            if self.meetings.kicked(k) {
+            if self.meetings.kicked(k) || self.footings.kicked(k) {
                 member.resume()?;
             }
         }
@@ -351,7 +359,8 @@ impl Crowd {
             ..Energies::default()
         };
         if let Some(contact) = &self.contact {
-            sum.forces[1] = self.meetings.energy(contact, &self.members);
+            sum.forces[1] = self.meetings.energy(contact, &self.members)
+                + self.footings.energy(contact, &self.members);
         }
         for member in &mut self.members {
             let energies = member.energies();

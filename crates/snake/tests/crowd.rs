@@ -17,6 +17,8 @@ const LAYER: Contact = Contact {
     stiffness: 60.0,
     damping: 0.0,
     friction: 0.0,
+    wall_friction: 0.0,
+    stick: 1.0,
     gap: 0.2,
     stop: 0.3,
     own: false,

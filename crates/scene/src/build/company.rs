@@ -126,6 +126,8 @@ fn contact(text: &ContactText) -> Contact {
         stiffness: text.stiffness,
         damping: text.damping,
         friction: text.friction,
+        wall_friction: text.wall_friction,
+        stick: text.stick,
         gap: text.gap,
         stop: text.stop,
         own: text.own,

@@ -29,10 +29,18 @@ pub(crate) struct ContactText {
     #[serde(default)]
     pub friction: f64,
     #[serde(default)]
+    pub wall_friction: f64,
+    #[serde(default = "whole")]
+    pub stick: f64,
+    #[serde(default)]
     pub gap: f64,
     pub stop: f64,
     #[serde(default)]
     pub own: bool,
+}
+
+fn whole() -> f64 {
+    1.0
 }
 
 #[derive(Debug, Clone, Deserialize)]

@@ -25,8 +25,13 @@ pub struct Contact {
     pub stiffness: f64,
     /// c: takes energy from approach and parting. M T⁻¹.
     pub damping: f64,
-    /// Coulomb's coefficient between curves.
+    /// Coulomb's coefficient between curves. 0, the usual value: they slip without loss.
     pub friction: f64,
+    /// Coulomb's coefficient at walls that push back ([`WallLaw::Penalty`](crate::WallLaw::Penalty)).
+    pub wall_friction: f64,
+    /// How stiffly friction holds before it slips, as a share of what holds the normal apart: 0 to 1. 0: friction
+    /// brakes slip alone, and what should stick creeps.
+    pub stick: f64,
     /// Curves push each other from this distance on. L. Open ones, which have no inside, need some.
     pub gap: f64,
     /// Overlap at which the approach ends. L.
@@ -56,6 +61,10 @@ struct Meeting {
     felt: f64,
     /// From the edge to where the node should be.
     way: DVec2,
+    /// From the point of the edge to the node.
+    apart: DVec2,
+    /// ξ: how far friction has been stretched, along `way.perp()`.
+    slip: f64,
 }
 
 /// All meetings of a moment.
@@ -67,7 +76,7 @@ pub(super) struct Meetings {
     /// The list of the step before, in the same order: by curve, node and other curve.
     before: Vec<Meeting>,
     kicked: Vec<bool>,
-    push: Vec<DVec2>,
+    push: Vec<Vec<DVec2>>,
 }
 
 impl Contact {
@@ -82,19 +91,36 @@ impl Contact {
         for (name, value) in [
             ("the damping of contacts", self.damping),
             ("the friction of contacts", self.friction),
+            ("the friction at walls", self.wall_friction),
             ("the gap of contacts", self.gap),
         ] {
             finite_at_least(name, 0.0, "at least 0", value)?;
         }
+        let name = "the stick of contacts";
+        finite_at_least(name, 0.0, "from 0 to 1", self.stick)?;
+        if self.stick > 1.0 {
+            let (bound, value) = ("from 0 to 1", self.stick);
+            return Err(SnakeError::BadNumber { name, bound, value });
+        }
         let name = "the stop of contacts";
         finite_at_least(name, f64::MIN_POSITIVE, "above 0", self.stop).map(|_| ())
+    }
+
+    /// How far friction of that coefficient stretches at a depth before it slips.
+    pub(super) fn holds(&self, friction: f64, depth: f64) -> f64 {
+        if self.stick > 0.0 {
+            friction * depth / self.stick
+        } else {
+            0.0
+        }
     }
 
     /// The largest step: a node pushed from two sides, by its own layer and the other's, on both.
     pub(super) fn step_limit(&self, members: &[Member]) -> f64 {
         let masses = members.iter().flat_map(|member| member.snake.mass());
         let least = masses.copied().fold(f64::INFINITY, f64::min);
-        // half a kick twice a step is the leapfrog: dt² k/μ < 4, with k up to eight times as large
+        // half a kick twice a step is the leapfrog: dt² k/μ < 4, with k up to eight times as large; what sticks is
+        // no stiffer, across
         (4.0 * least / (8.0 * self.stiffness)).sqrt()
     }
 }
@@ -162,6 +188,8 @@ impl Meetings {
                             depth,
                             felt: depth,
                             way,
+                            apart: member.state.x[node] - near.at,
+                            slip: 0.0,
                         });
                     }
                 }
@@ -179,14 +207,20 @@ impl Meetings {
         let energy = |m: &Meeting, felt: f64| {
             0.5 * contact.stiffness * members[m.curve].snake.body().spacing * felt * felt
         };
+        let stuck = |m: &Meeting, slip: f64| contact.stick * energy(m, slip);
         for m in &mut self.list {
             while old < self.before.len() && key(&self.before[old]) < key(m) {
-                lost += gone(&self.before[old], members, dt, &energy);
+                let gone = &self.before[old];
+                lost += left(gone, members, dt, &energy) + stuck(gone, gone.slip);
                 old += 1;
             }
             let reach = 2.0 * dt * relative(m, members).length();
             let same = self.before.get(old).filter(|b| key(b) == key(m));
             let (felt, depth) = same.map_or((0.0, 0.0), |b| (b.felt, b.depth));
+            if let Some(b) = same {
+                let now = members[m.curve].state.x[m.node] - point(b, members);
+                m.slip = b.slip + (now - b.apart).dot(m.way.perp());
+            }
             old += usize::from(same.is_some());
             // what the depth has changed by, as far as motion explains it
             let change = (m.depth - depth).clamp(-reach, reach);
@@ -195,80 +229,53 @@ impl Meetings {
             if jump > 0.0 {
                 lost += energy(m, m.felt + jump) - energy(m, m.felt);
             }
+            let held = contact.holds(contact.friction, m.felt);
+            if m.slip.abs() > held {
+                // before, what held was stretched by so much
+                let before = same.map_or(0.0, |b| b.slip);
+                let slid = m.slip;
+                m.slip = held.copysign(slid);
+                lost += stuck(m, 1.0) * (before + m.slip) * (slid - m.slip);
+            }
         }
         for m in &self.before[old..] {
-            lost += gone(m, members, dt, &energy);
+            lost += left(m, members, dt, &energy) + stuck(m, m.slip);
         }
         lost
     }
 
-    /// Push for that long, meeting after meeting; what damping and friction take.
+    /// Push and brake for that long; what damping and friction take.
     ///
-    /// Each sees the velocities that those before it have left, so that none turns a slip round.
-    pub(super) fn kick(&mut self, contact: &Contact, members: &mut [Member], time: f64) -> f64 {
+    /// The springs of all meetings act at once, damping and friction one meeting after the other, each on the velocities
+    /// that those before it have left, so that none turns a slip round. At the start of a step braking comes first and at its
+    /// end last: it sees the velocities between two steps, and nothing is lost where nothing moves.
+    pub(super) fn kick(
+        &mut self,
+        contact: &Contact,
+        members: &mut [Member],
+        time: f64,
+        half: Half,
+    ) -> f64 {
         self.kicked.fill(false);
         let mut lost = 0.0;
-        for k in 0..self.list.len() {
-            lost += self.push(contact, members, k, time);
+        for turn in half.turns() {
+            for m in &self.list {
+                match turn {
+                    Turn::Push => push(contact, members, m, time),
+                    Turn::Brake => lost += brake(contact, members, m, time),
+                }
+                self.kicked[m.curve] = true;
+                self.kicked[m.other] = true;
+            }
         }
         for _ in 0..ROUNDS {
-            for k in 0..self.list.len() {
-                if self.list[k].depth > contact.gap + contact.stop {
-                    lost += self.push(contact, members, k, 0.0);
+            for m in &self.list {
+                if m.depth > contact.gap + contact.stop {
+                    lost += brake(contact, members, m, 0.0);
                 }
             }
         }
         lost
-    }
-
-    /// One meeting's push for that long; what of it is lost.
-    fn push(&mut self, contact: &Contact, members: &mut [Member], k: usize, time: f64) -> f64 {
-        let m = self.list[k];
-        let [first, second] = m.ends;
-        let shares = [1.0 - m.along, m.along];
-        let lightness = |curve: usize, node: usize| {
-            let member = &members[curve];
-            if member.snake.held()[node] {
-                0.0
-            } else {
-                1.0 / member.mass(node)
-            }
-        };
-        let own = lightness(m.curve, m.node);
-        let theirs = [lightness(m.other, first), lightness(m.other, second)];
-        let total = own + shares[0] * shares[0] * theirs[0] + shares[1] * shares[1] * theirs[1];
-        if total <= 0.0 {
-            return 0.0;
-        }
-        let length = members[m.curve].snake.body().spacing;
-        let relative = relative(&m, members);
-        let normal = relative.dot(m.way);
-        let push = contact.stiffness * m.felt * length * time;
-        // the damper never pulls curves together, nor turns their motion round
-        let damp = -contact.damping * length * time * normal;
-        let most = normal.abs() / total;
-        let mut damp = damp.clamp(-most, most).max(-push);
-        if m.depth > contact.gap + contact.stop {
-            // whatever is left of the approach
-            damp = damp.max(-normal / total - push);
-        }
-        let slip = relative - normal * m.way;
-        let speed = slip.length();
-        let rub = if speed > 0.0 {
-            let most = contact.friction * (push + damp);
-            -slip / speed * most.min(speed / total)
-        } else {
-            DVec2::ZERO
-        };
-        let taken = damp * m.way + rub;
-        let impulse = push * m.way + taken;
-        members[m.curve].state.v[m.node] += own * impulse;
-        for ((node, share), light) in m.ends.into_iter().zip(shares).zip(theirs) {
-            members[m.other].state.v[node] -= share * light * impulse;
-        }
-        self.kicked[m.curve] = true;
-        self.kicked[m.other] = true;
-        -taken.dot(relative + 0.5 * total * impulse)
     }
 
     /// Whether that member was pushed by the last kick.
@@ -276,34 +283,32 @@ impl Meetings {
         self.kicked.get(member).copied().unwrap_or(false)
     }
 
-    /// The push on every node of member `k`, per unit of arc length.
-    pub(super) fn force_on(
-        &mut self,
-        contact: &Contact,
-        k: usize,
-        spacing: impl Fn(usize) -> f64,
-        n: usize,
-    ) -> &[DVec2] {
-        self.push.clear();
-        self.push.resize(n, DVec2::ZERO);
-        for m in self.list.iter().filter(|m| m.curve == k || m.other == k) {
-            let force = contact.stiffness * m.felt * m.way;
-            if m.curve == k {
-                self.push[m.node] += force;
-            }
-            if m.other == k {
-                // a force of the other's length of curve, felt by this one's
-                let share = spacing(m.curve) / spacing(k);
-                self.push[m.ends[0]] -= share * (1.0 - m.along) * force;
-                self.push[m.ends[1]] -= share * m.along * force;
-            }
+    /// The push on every node of every member, per unit of arc length.
+    pub(super) fn forces(&mut self, contact: &Contact, members: &[Member]) -> &mut [Vec<DVec2>] {
+        self.push.resize_with(members.len(), Vec::new);
+        for (push, member) in self.push.iter_mut().zip(members) {
+            push.clear();
+            push.resize(member.state.len(), DVec2::ZERO);
         }
-        &self.push
+        let spacing = |k: usize| members[k].snake.body().spacing;
+        for m in &self.list {
+            let hold = contact.stick * m.slip * m.way.perp();
+            let force = contact.stiffness * (m.felt * m.way - hold);
+            self.push[m.curve][m.node] += force;
+            // a force of one's length of curve, felt by the other's
+            let share = spacing(m.curve) / spacing(m.other);
+            self.push[m.other][m.ends[0]] -= share * (1.0 - m.along) * force;
+            self.push[m.other][m.ends[1]] -= share * m.along * force;
+        }
+        &mut self.push
     }
 
     /// What the layers hold.
     pub(super) fn energy(&self, contact: &Contact, members: &[Member]) -> f64 {
-        let each = |m: &Meeting| members[m.curve].snake.body().spacing * m.felt * m.felt;
+        let each = |m: &Meeting| {
+            let held = contact.stick * m.slip * m.slip;
+            members[m.curve].snake.body().spacing * (m.felt * m.felt + held)
+        };
         0.5 * contact.stiffness * self.list.iter().map(each).sum::<f64>()
     }
 
@@ -313,14 +318,130 @@ impl Meetings {
     }
 }
 
+/// What a meeting acts on.
+struct Lever {
+    /// Velocities a unit impulse gives to the node and, per share, to the edge's.
+    own: f64,
+    theirs: [f64; 2],
+    shares: [f64; 2],
+    /// Change of the relative velocity by a unit impulse.
+    total: f64,
+    /// Length of curve that the node stands for.
+    length: f64,
+}
+
+impl Lever {
+    /// None where nothing can move.
+    fn of(m: &Meeting, members: &[Member]) -> Option<Self> {
+        let lightness = |curve: usize, node: usize| {
+            let member = &members[curve];
+            if member.snake.held()[node] {
+                0.0
+            } else {
+                1.0 / member.mass(node)
+            }
+        };
+        let shares = [1.0 - m.along, m.along];
+        let own = lightness(m.curve, m.node);
+        let theirs = m.ends.map(|node| lightness(m.other, node));
+        let total = own + shares[0] * shares[0] * theirs[0] + shares[1] * shares[1] * theirs[1];
+        let length = members[m.curve].snake.body().spacing;
+        (total > 0.0).then_some(Self {
+            own,
+            theirs,
+            shares,
+            total,
+            length,
+        })
+    }
+
+    fn give(&self, m: &Meeting, members: &mut [Member], impulse: DVec2) {
+        members[m.curve].state.v[m.node] += self.own * impulse;
+        for k in 0..2 {
+            members[m.other].state.v[m.ends[k]] -= self.shares[k] * self.theirs[k] * impulse;
+        }
+    }
+}
+
+/// The springs of one meeting, for that long.
+fn push(contact: &Contact, members: &mut [Member], m: &Meeting, time: f64) {
+    if let Some(lever) = Lever::of(m, members) {
+        let hold = contact.stick * m.slip * m.way.perp();
+        let force = contact.stiffness * lever.length * (m.felt * m.way - hold);
+        lever.give(m, members, time * force);
+    }
+}
+
+/// Damping and friction of one meeting for that long, or the end of an approach at once; what they take.
+fn brake(contact: &Contact, members: &mut [Member], m: &Meeting, time: f64) -> f64 {
+    let Some(lever) = Lever::of(m, members) else {
+        return 0.0;
+    };
+    let (total, length) = (lever.total, lever.length);
+    let relative = relative(m, members);
+    let normal = relative.dot(m.way);
+    let push = contact.stiffness * m.felt * length * time;
+    // the damper never pulls curves together, nor turns their motion round
+    let damp = -contact.damping * length * time * normal;
+    let most = normal.abs() / total;
+    let mut damp = damp.clamp(-most, most).max(-push);
+    if m.depth > contact.gap + contact.stop {
+        // whatever is left of the approach
+        damp = damp.max(-normal / total);
+    }
+    let across = m.way.perp();
+    let slip = relative.dot(across);
+    let most = contact.friction * (push + damp);
+    let rub = if contact.stick > 0.0 && time > 0.0 {
+        let hold = -contact.stick * contact.stiffness * m.slip * length * time;
+        let brake = (contact.damping * length * time).min(1.0 / total);
+        (hold - brake * slip).clamp(-most, most) - hold
+    } else {
+        -slip.clamp(-most * total, most * total) / total
+    };
+    let taken = damp * m.way + rub * across;
+    lever.give(m, members, taken);
+    -taken.dot(relative + 0.5 * total * taken)
+}
+
+/// Which half of the pushes around a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Half {
+    First,
+    Second,
+}
+
+/// What is done in a half.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Turn {
+    Push,
+    Brake,
+}
+
+impl Half {
+    /// The second half is the first backwards.
+    pub(super) const fn turns(self) -> [Turn; 2] {
+        match self {
+            Self::First => [Turn::Brake, Turn::Push],
+            Self::Second => [Turn::Push, Turn::Brake],
+        }
+    }
+}
+
 /// Velocity of the node against the edge.
 fn relative(m: &Meeting, members: &[Member]) -> DVec2 {
     let v = |curve: usize, node: usize| members[curve].state.v[node];
     v(m.curve, m.node) - (1.0 - m.along) * v(m.other, m.ends[0]) - m.along * v(m.other, m.ends[1])
 }
 
+/// The point of the edge that a meeting is at, where it is now.
+fn point(m: &Meeting, members: &[Member]) -> DVec2 {
+    let x = &members[m.other].state.x;
+    (1.0 - m.along) * x[m.ends[0]] + m.along * x[m.ends[1]]
+}
+
 /// What the end of a meeting takes: nothing if it was on its way out.
-fn gone(m: &Meeting, members: &[Member], dt: f64, energy: &impl Fn(&Meeting, f64) -> f64) -> f64 {
+fn left(m: &Meeting, members: &[Member], dt: f64, energy: &impl Fn(&Meeting, f64) -> f64) -> f64 {
     let reach = 2.0 * dt * relative(m, members).length();
     if m.felt > reach {
         energy(m, m.felt)

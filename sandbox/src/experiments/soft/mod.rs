@@ -7,6 +7,7 @@ mod ledger;
 mod pile;
 mod respacing;
 mod rope;
+mod slope;
 
 pub(crate) use course::{keep_shots, picture, shots, times};
 pub(crate) use dent::DENT;
@@ -15,3 +16,4 @@ pub(crate) use ledger::LEDGER;
 pub(crate) use pile::PILE;
 pub(crate) use respacing::RESPACING;
 pub(crate) use rope::ROPE;
+pub(crate) use slope::SLOPE;
