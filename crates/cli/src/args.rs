@@ -34,10 +34,11 @@ pub(crate) struct Run {
     /// Another scheme than the scene's.
     #[arg(long, value_name = "NAME")]
     pub scheme: Option<String>,
-    /// Another step than the scene's.
+    /// Another step than the scene's; `auto`: the program chooses each step, and a moment may be kept after any.
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
-    pub dt: Option<f64>,
-    /// Make every step in as many sub-steps as it takes for each to err by at most so many pixels.
+    pub dt: Option<Step>,
+    /// Make every step in as many sub-steps as it takes for each to err by at most so many pixels; of `auto`, what
+    /// each may err.
     #[arg(long, value_name = "PX", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
     /// Another number of steps than the scene's (or, with a rule for rest, at most so many).
@@ -67,6 +68,27 @@ pub(crate) struct Run {
     /// Write the picture with the start (blue) and the final contour (orange) over it.
     #[arg(long, value_name = "PNG")]
     pub overlay: Option<PathBuf>,
+}
+
+/// A step as typed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Step {
+    Fixed(f64),
+    Auto,
+}
+
+impl std::str::FromStr for Step {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "auto" => Ok(Self::Auto),
+            number => number
+                .parse()
+                .map(Self::Fixed)
+                .map_err(|error| format!("{error}; a number above 0 or auto would do")),
+        }
+    }
 }
 
 #[derive(Debug, ClapArgs)]

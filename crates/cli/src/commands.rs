@@ -25,8 +25,14 @@ pub(crate) fn run(args: &args::Run) -> Answer {
     if args.every == Some(0) {
         return Err(key("--every", "must be at least 1, got 0"));
     }
-    if let Some(dt) = args.dt {
-        (plan.dt, plan.tolerance) = (dt, None);
+    match args.dt {
+        Some(args::Step::Fixed(_)) if plan.each => {
+            let message = "this scene has no steps to count; its time in dt and steps would do";
+            return Err(key("--dt", message));
+        }
+        Some(args::Step::Fixed(dt)) => (plan.dt, plan.tolerance) = (dt, None),
+        Some(args::Step::Auto) => plan.choose_steps(scene.company.is_some()),
+        None => {}
     }
     plan.tolerance = args.tolerance.or(plan.tolerance);
     plan.until.steps = args.steps.unwrap_or(plan.until.steps);
@@ -47,6 +53,8 @@ pub(crate) fn run(args: &args::Run) -> Answer {
     };
     let flags = [
         ("run.dt", "--dt", args.dt.is_some()),
+        ("run.output", "--dt", args.dt.is_some()),
+        ("run.time", "--dt", args.dt.is_some()),
         ("run.steps", "--steps", args.steps.is_some()),
         ("run.tolerance", "--tolerance", args.tolerance.is_some()),
         ("run.scheme", "--scheme", args.scheme.is_some()),

@@ -1,5 +1,6 @@
 //! Sub-steps chosen by their error, for any scheme.
 
+use crate::dormand_prince::DormandPrince;
 use crate::stepper::Clock;
 use crate::watched::{Watch, Watched};
 use crate::{Fault, Limit, Reason, Scheme, SchemeError, Start, State, Stepper, Summary, System};
@@ -30,13 +31,25 @@ const BELOW: f64 = 0.95;
 /// each new length with a step of Euler's, about 1/3). The same bytes every time. Half as many
 /// forces again as sub-steps. Memory: one stepper for each length in use, at most 25.
 ///
-/// [`Scheme::DormandPrince`] chooses its own sub-steps and is used as it is.
+/// [`Scheme::DormandPrince`] chooses its own sub-steps and is used as it is, by its own tolerance.
 #[derive(Debug)]
 pub struct Adaptive {
     scheme: Scheme,
     tolerance: f64,
     clock: Clock,
     limit: Option<Limit>,
+    /// Why a sub-step is no longer that is as long as the output allows.
+    whole: Reason,
+    /// Whether every sub-step ends a step; the clock's then is the time of the whole run.
+    each: bool,
+    /// How much of the clock's step is made, in pairs of the finest level, with `each`.
+    done: u64,
+    /// How much of it the second sub-step of the last pair is.
+    second: u64,
+    /// The state between the two sub-steps of a pair.
+    middle: State,
+    /// Whether the second sub-step of the last pair, made already, is yet to be shown.
+    waiting: bool,
     /// Pairs an output step has at least.
     pairs: u64,
     /// By level: steps of a pair halved k times. The judge of a level is the sub-step of the one before.
@@ -54,7 +67,7 @@ pub struct Adaptive {
     coarse: State,
     origin: State,
     /// For the scheme that chooses its own.
-    own: Option<Box<dyn Stepper>>,
+    own: Option<Box<DormandPrince>>,
 }
 
 /// A stepper of one length, and the version of the system it has seen.
@@ -95,7 +108,15 @@ impl Adaptive {
                 scheme: scheme.name(),
             });
         }
-        let whole = scheme.start(system, state, output, Start::SecondOrder)?;
+        let mut own = None;
+        let mut whole = None;
+        if let Scheme::DormandPrince { tolerance } = scheme {
+            own = Some(Box::new(DormandPrince::new(
+                system, state, output, tolerance,
+            )?));
+        } else {
+            whole = Some(scheme.start(system, state, output, Start::SecondOrder)?);
+        }
         let most = limit.map_or(f64::INFINITY, |limit| BELOW * limit.dt);
         let pairs = (output / most).ceil().max(1.0);
         // more would take longer than anybody waits for one output
@@ -107,20 +128,20 @@ impl Adaptive {
             ));
         }
         let mut gears: Vec<Option<Gear>> = (0..=LEVELS + 1).map(|_| None).collect();
-        let mut own = None;
-        if matches!(scheme, Scheme::DormandPrince { .. }) {
-            own = Some(whole);
-        } else if pairs < 1.5 {
-            gears[0] = Some(Gear {
-                stepper: whole,
-                seen: 0,
-            });
+        if pairs < 1.5 {
+            gears[0] = whole.map(|stepper| Gear { stepper, seen: 0 });
         }
         Ok(Self {
             scheme,
             tolerance,
             clock: Clock::new(state, output),
             limit,
+            whole: Reason::Output,
+            each: false,
+            done: 0,
+            second: 0,
+            middle: state.clone(),
+            waiting: false,
             pairs: whole_number(pairs),
             gears,
             level: 0,
@@ -128,13 +149,30 @@ impl Adaptive {
             last_error: tolerance,
             patience: 0,
             watch: Watch::default(),
-            summary: Summary::new(),
+            summary: Summary::new(limit),
             from: state.clone(),
             fine: state.clone(),
             coarse: state.clone(),
             origin: state.clone(),
             own,
         })
+    }
+
+    /// The same without an output step: every step is one sub-step, of whatever length it takes.
+    ///
+    /// `output` of [`Adaptive::new`] is then the time of the whole run; a sub-step ends there.
+    #[must_use]
+    pub const fn each(mut self) -> Self {
+        self.each = true;
+        self
+    }
+
+    /// The same where the output step is itself as short as `limit` asks for: the reason of sub-steps as long as it allows.
+    #[must_use]
+    pub fn cut_by(mut self, limit: Limit) -> Self {
+        self.whole = Reason::Stability(limit);
+        self.summary.limit = Limit::tighter(self.summary.limit, Some(limit));
+        self
     }
 
     /// What became of the sub-steps so far.
@@ -215,13 +253,16 @@ impl Adaptive {
         self.rewind(system);
         self.ready(system, level + 1, goes_on)?;
         self.watch.late = 0.0;
-        for _ in 0..2 {
+        for half in 0..2 {
             Self::go(
                 &mut self.gears[short],
                 &mut self.watch,
                 system,
                 &mut self.fine,
             )?;
+            if self.each && half == 0 {
+                self.middle.copy(&self.fine);
+            }
         }
         let mut apart = 0.0_f64;
         for (a, b) in self.fine.x.iter().zip(&self.coarse.x) {
@@ -294,7 +335,7 @@ impl Adaptive {
         } else {
             match self.limit {
                 Some(limit) if self.pairs > 1 => Reason::Stability(limit),
-                _ => Reason::Output,
+                _ => self.whole,
             }
         }
     }
@@ -310,10 +351,85 @@ const fn whole_number(value: f64) -> u64 {
     value as u64
 }
 
+impl Adaptive {
+    /// A pair that is too long for what is left, or not in line with it, is halved.
+    const fn align(&mut self, done: u64) {
+        while !done.is_multiple_of(1 << (LEVELS - self.level)) {
+            self.level += 1;
+        }
+    }
+
+    /// How much of the clock's step is made.
+    fn share(&self) -> f64 {
+        self.done as f64 / (self.pairs << LEVELS) as f64
+    }
+
+    /// One sub-step, the second of a pair from what the first has left.
+    fn one(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
+        let whole = self.pairs << LEVELS;
+        if !self.waiting {
+            self.from.copy(state);
+            self.from.t = self.clock.part(self.share());
+            self.align(self.done);
+            let some = match self.advance(system) {
+                Ok(some) => some,
+                Err(fault) => {
+                    self.rolling = None;
+                    return Err(fault);
+                }
+            };
+            let half = self.done as f64 + 0.5 * some as f64;
+            self.middle.t = self.clock.part(half / whole as f64);
+            self.done += some;
+            self.second = some - some / 2;
+            self.fine.t = self.clock.part(self.share());
+            std::mem::swap(&mut self.from, &mut self.fine);
+        }
+        let to = if self.waiting {
+            &self.from
+        } else {
+            &self.middle
+        };
+        state.x.copy_from_slice(&to.x);
+        state.v.copy_from_slice(&to.v);
+        state.t = to.t;
+        state.step += 1;
+        self.waiting = !self.waiting;
+        if self.done == whole && !self.waiting {
+            // whoever goes on beyond the end does so by another span of that length
+            self.done = 0;
+            self.clock.restart(state);
+        }
+        Ok(())
+    }
+
+    /// A step of the scheme that chooses its own sub-steps.
+    fn by_itself(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
+        let Some(own) = &mut self.own else {
+            return Err(crate::stepper::unsolvable(&state.x));
+        };
+        if self.each {
+            let room = self.clock.next() - state.t;
+            own.advance_within(system, state, room)?;
+            if state.t >= self.clock.next() {
+                state.t = self.clock.next();
+                self.clock.restart(state);
+            }
+        } else {
+            own.step(system, state)?;
+        }
+        self.summary.take(own);
+        Ok(())
+    }
+}
+
 impl Stepper for Adaptive {
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
-        if let Some(own) = &mut self.own {
-            return own.step(system, state);
+        if self.own.is_some() {
+            return self.by_itself(system, state);
+        }
+        if self.each {
+            return self.one(system, state);
         }
         let whole = self.pairs << LEVELS;
         let mut done = 0;
@@ -321,10 +437,7 @@ impl Stepper for Adaptive {
         self.from.copy(state);
         self.from.t = self.clock.now();
         while done < whole {
-            // a pair that is too long for what is left, or not in line with it, is halved
-            while done % (1 << (LEVELS - self.level)) != 0 {
-                self.level += 1;
-            }
+            self.align(done);
             match self.advance(system) {
                 Ok(some) => done += some,
                 Err(fault) => {
@@ -346,7 +459,13 @@ impl Stepper for Adaptive {
     }
 
     fn resume(&mut self, system: &mut dyn System, state: &State) {
+        if self.each {
+            // only half of the last pair stands
+            self.done -= if self.waiting { self.second } else { 0 };
+            self.waiting = false;
+        }
         self.clock.restart(state);
+        self.clock.rewind(self.share());
         self.rolling = None;
         self.last_error = self.tolerance;
         if let Some(own) = &mut self.own {

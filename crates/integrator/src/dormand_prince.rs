@@ -84,6 +84,8 @@ pub struct DormandPrince {
     span: (f64, f64),
     /// Sub-steps made and refused so far.
     counts: (u64, u64),
+    /// The shortest and the longest sub-step, and how many were cut short by the room there was.
+    lengths: (f64, f64, u64),
     /// Whether the first stage is known already from the last sub-step.
     ready: bool,
     rates: Rates,
@@ -130,6 +132,7 @@ impl DormandPrince {
             last_error: 1.0,
             span: (state.t, 0.0),
             counts: (0, 0),
+            lengths: (f64::INFINITY, 0.0, 0),
             ready: false,
             rates,
             stages_x: stages(),
@@ -146,15 +149,30 @@ impl DormandPrince {
         self.counts
     }
 
+    /// The shortest and the longest sub-step so far, and how many the end of a step has cut short.
+    pub(crate) const fn lengths(&self) -> (f64, f64, u64) {
+        self.lengths
+    }
+
     /// Move `state` by one sub-step of the method's own choice; `state.step` counts them.
     ///
     /// # Errors
     ///
     /// As [`Stepper::step`].
     pub fn advance(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
+        self.advance_within(system, state, f64::INFINITY)
+    }
+
+    /// The same by at most `room`.
+    pub(crate) fn advance_within(
+        &mut self,
+        system: &mut dyn System,
+        state: &mut State,
+        room: f64,
+    ) -> Result<(), Fault> {
         self.from.copy(state);
         stop_held(system, &mut self.from.v);
-        if let Err(fault) = self.substep(system, f64::INFINITY) {
+        if let Err(fault) = self.substep(system, room) {
             self.ready = false;
             return Err(fault);
         }
@@ -228,6 +246,9 @@ impl DormandPrince {
                 self.last_error = error.max(1e-4);
                 self.span = (t, h);
                 self.counts.0 += 1;
+                let (short, long, cut) = self.lengths;
+                let cut = cut + u64::from(h >= room);
+                self.lengths = (short.min(h), long.max(h), cut);
                 return self.accept(system, t, h);
             }
             self.counts.1 += 1;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::{Scheme, System};
+use crate::{DormandPrince, Scheme, System};
 
 /// A step no sub-step may reach, and what sets it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,7 +76,7 @@ pub struct Summary {
     pub made: u64,
     /// Sub-steps made for the estimate of the error alone, those of refused pairs included.
     pub spent: u64,
-    /// Pairs that erred too much and were made again.
+    /// Pairs, or sub-steps of a scheme that chooses its own, that erred too much and were made again.
     pub refused: u64,
     /// Length of the shortest one. T.
     pub shortest: f64,
@@ -86,11 +86,16 @@ pub struct Summary {
     pub held_by: [u64; 5],
     /// The reason of the last one.
     pub reason: Reason,
+    /// What no sub-step may reach, and what sets it; None where any is stable.
+    pub limit: Option<Limit>,
 }
 
 impl Summary {
-    pub(crate) const fn new() -> Self {
+    /// Of no sub-steps yet, none of which may reach `limit`.
+    #[must_use]
+    pub const fn new(limit: Option<Limit>) -> Self {
         Self {
+            limit,
             made: 0,
             spent: 0,
             refused: 0,
@@ -118,6 +123,39 @@ impl Summary {
         self.held_by[which] += 2;
     }
 
+    /// What a scheme says that chooses its own.
+    pub(crate) fn take(&mut self, own: &DormandPrince) {
+        let (made, refused) = own.counts();
+        let (shortest, longest, cut) = own.lengths();
+        (self.made, self.spent, self.refused) = (made, refused, refused);
+        (self.shortest, self.longest) = (shortest, longest);
+        self.reason = if cut > self.held_by[0] {
+            Reason::Output
+        } else {
+            Reason::Accuracy
+        };
+        self.held_by = [cut, 0, made - cut, 0, 0];
+    }
+
+    /// What became of the sub-steps of several runs together: those of `other` come last.
+    #[must_use]
+    pub fn with(&self, other: &Self) -> Self {
+        let mut held_by = self.held_by;
+        for (sum, more) in held_by.iter_mut().zip(other.held_by) {
+            *sum += more;
+        }
+        Self {
+            made: self.made + other.made,
+            spent: self.spent + other.spent,
+            refused: self.refused + other.refused,
+            shortest: self.shortest.min(other.shortest),
+            longest: self.longest.max(other.longest),
+            held_by,
+            reason: other.reason,
+            limit: Limit::tighter(self.limit, other.limit),
+        }
+    }
+
     /// A pair was refused.
     pub(crate) fn refuse(&mut self) {
         self.spent += 3;
@@ -126,14 +164,15 @@ impl Summary {
 }
 
 impl fmt::Display for Summary {
-    /// `412 sub-steps of 2.5e-3 to 2.0e-2 (12 pairs refused): 300 accuracy, 112 stability`
+    /// `412 sub-steps of 2.5e-3 to 2.0e-2 (12 refused), held by stability 112, accuracy 300; none may reach
+    /// 2.1e-2, the stability limit of the elastic force`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.made == 0 {
             return f.write_str("no sub-steps yet");
         }
         write!(
             f,
-            "{} sub-steps of {:.3e} to {:.3e} ({} pairs refused), held by",
+            "{} sub-steps of {:.3e} to {:.3e} ({} refused), held by",
             self.made, self.shortest, self.longest, self.refused
         )?;
         let names = ["output", "stability", "accuracy", "contacts", "the floor"];
@@ -144,6 +183,11 @@ impl fmt::Display for Summary {
                 comma = ",";
             }
         }
-        Ok(())
+        match self.limit {
+            Some(Limit { dt, of }) => {
+                write!(f, "; none may reach {dt:.3e}, the stability limit of {of}")
+            }
+            None => Ok(()),
+        }
     }
 }

@@ -69,6 +69,16 @@ impl Clock {
         self.start + count(self.count + 1) * self.dt
     }
 
+    /// Time at a share of it, 0 to 1.
+    pub(crate) fn part(&self, share: f64) -> f64 {
+        self.start + (count(self.count) + share) * self.dt
+    }
+
+    /// Such a share of the step is made already.
+    pub(crate) fn rewind(&mut self, share: f64) {
+        self.start -= share * self.dt;
+    }
+
     /// The step is made.
     pub(crate) fn tick(&mut self, state: &mut State) {
         state.t = self.next();

@@ -33,6 +33,7 @@ impl Scene {
         let timing = Timing {
             scheme: plan.scheme,
             dt: plan.dt,
+            tolerance: plan.tolerance,
             start: plan.start_rule,
             force: plan.force,
         };
@@ -84,6 +85,7 @@ impl Scene {
                 .push(frame(&mut crowd, keep.velocities, keep.energies));
         }
         record.events = crowd.events().iter().map(said).collect();
+        record.pace = crowd.summary().map(|summary| summary.to_string());
         record.outcome = outcome.unwrap_or(Outcome::Finished { step });
         Ok(record)
     }

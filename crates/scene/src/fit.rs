@@ -165,6 +165,7 @@ impl Fit {
                 scheme,
                 dt,
                 tolerance: None,
+                each: false,
                 until: Until::at_rest(Rest::default(), self.steps),
                 start_rule: Start::SecondOrder,
                 force: false,

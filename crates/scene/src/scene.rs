@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use field::ForceField;
 use glam::DVec2;
-use integrator::{Adaptive, Limit, Scheme, SchemeError, Start, State, Stepper};
-use snake::{Ledger, Outcome, Snake, Until};
+use integrator::{Scheme, SchemeError, Start, State};
+use snake::{Ledger, Outcome, Pace, Snake, Until};
 
-use crate::build::number;
+use crate::build::{USUAL_TOLERANCE, number};
 use crate::company::Company;
 use crate::limits::{MOST_KEPT, MOST_SCENE_BYTES, MOST_STEPS};
 use crate::record::{Frame, Record};
@@ -73,6 +73,8 @@ pub struct Plan {
     /// Make every step in as many sub-steps as it takes for each to err by at most so many pixels; None for
     /// steps of `dt` as they are.
     pub tolerance: Option<f64>,
+    /// Whether every such sub-step is a step of its own; `dt` is then the time of the whole run.
+    pub each: bool,
     /// When to stop.
     pub until: Until,
     /// How the first step is begun (D19).
@@ -81,6 +83,34 @@ pub struct Plan {
     pub force: bool,
     /// What to keep.
     pub recording: Recording,
+}
+
+impl Plan {
+    /// Let the program choose the steps: a plan of equal ones becomes one that takes as long, in steps of their own
+    /// length where snakes meet (`shared`), and else with every sub-step a step of its own. A plan that has chosen steps stays.
+    pub fn choose_steps(&mut self, shared: bool) {
+        if self.tolerance.is_some() {
+            return;
+        }
+        self.tolerance = Some(USUAL_TOLERANCE);
+        if !shared {
+            let time = self.until.steps as f64 * self.dt;
+            self.each = true;
+            self.dt = time;
+            self.until.steps = MOST_STEPS;
+            self.until.time = Some(time);
+        }
+    }
+
+    /// Steps that a run of `n` nodes may make before its record is too long.
+    fn room(&self, n: usize) -> u64 {
+        let most = self.until.steps;
+        if self.recording.kept(most, n) <= MOST_KEPT {
+            return most;
+        }
+        let each = MOST_KEPT / self.recording.kept(1, n).max(1);
+        most.min(each.saturating_mul(self.recording.every.unwrap_or(1)))
+    }
 }
 
 /// A situation: what the text of a scene describes.
@@ -167,7 +197,8 @@ impl Scene {
         }
         let n = self.snake.body().len();
         let kept = plan.recording.kept(plan.until.steps, n);
-        if kept > MOST_KEPT {
+        // how many sub-steps there will be is not known yet
+        if kept > MOST_KEPT && !plan.each {
             let message = format!(
                 "would keep {kept} points; at most {MOST_KEPT}, so fewer moments, would do"
             );
@@ -191,12 +222,13 @@ impl Scene {
         }
         if let Some(tolerance) = plan.tolerance {
             number::above_zero("run.tolerance", tolerance)?;
-            if self.company.is_some() {
-                let message = "\"auto\" is for one snake without upkeep; a number would do";
-                return Err(SceneError::key("run.dt", message));
+            if self.company.is_some() && plan.each {
+                let message = "snakes that meet are written at times they share; a time between steps would do";
+                return Err(SceneError::key("run.output", message));
             }
             if plan.scheme == Scheme::Report {
-                let message = "the scheme report cannot change its step; leapfrog would do";
+                let message = "the scheme report keeps one step: its velocity and its damping are differences over it, \
+                               and would jump with it; leapfrog is the same motion and would do";
                 return Err(SceneError::key("run.scheme", message));
             }
         }
@@ -222,7 +254,13 @@ impl Scene {
         }
         let plan = self.plan.clone();
         let mut state = self.start.clone();
-        let mut pace = Pace::start(&plan, &mut self.snake, &state).map_err(|e| refused(&e))?;
+        let pace = pace(&plan, &mut self.snake, &state);
+        let mut pace = pace.map_err(|error| refused(&error))?;
+        let room = plan.room(state.len());
+        let until = Until {
+            steps: room,
+            ..plan.until
+        };
         let keep = &plan.recording.sorted();
         let mut ledger = if keep.energies {
             let begun = Ledger::begin(&mut self.snake, &state);
@@ -239,7 +277,7 @@ impl Scene {
             &mut self.snake,
             pace.stepper(),
             &mut state,
-            &plan.until,
+            &until,
             &mut |snake, state| {
                 // a place without force ends the run at the next step, with its own outcome
                 if let Some(ledger) = &mut ledger {
@@ -261,36 +299,26 @@ impl Scene {
                 .push(Frame::of(&mut self.snake, &state, keep, ledger.as_ref()));
         }
         record.outcome = outcome;
-        if let Pace::Chosen(adaptive) = &pace {
-            record.pace = Some(adaptive.summary().to_string());
+        record.pace = pace.summary().map(ToString::to_string);
+        let short = until.time.is_some_and(|end| state.t < end);
+        if short && room < plan.until.steps && matches!(outcome, Outcome::Finished { .. }) {
+            let message = format!(
+                "has kept {room} steps, all there is room for, by t = {:.6}; fewer moments would do",
+                state.t
+            );
+            return Err(SceneError::key("record.every", message));
         }
         Ok(record)
     }
 }
 
-/// What makes the steps: one of the given length, or many that are chosen.
-enum Pace {
-    Fixed(Box<dyn Stepper>),
-    Chosen(Box<Adaptive>),
-}
-
-impl Pace {
-    fn start(plan: &Plan, snake: &mut Snake, state: &State) -> Result<Self, SchemeError> {
-        let Some(tolerance) = plan.tolerance else {
-            let stepper = plan.scheme.start(snake, state, plan.dt, plan.start_rule)?;
-            return Ok(Self::Fixed(stepper));
-        };
-        let limit = Limit::of(plan.scheme, snake);
-        let adaptive = Adaptive::new(plan.scheme, snake, state, plan.dt, tolerance, limit)?;
-        Ok(Self::Chosen(Box::new(adaptive)))
-    }
-
-    fn stepper(&mut self) -> &mut dyn Stepper {
-        match self {
-            Self::Fixed(stepper) => &mut **stepper,
-            Self::Chosen(adaptive) => &mut **adaptive,
-        }
-    }
+/// What makes the steps that a plan asks for.
+fn pace(plan: &Plan, snake: &mut Snake, state: &State) -> Result<Pace, SchemeError> {
+    let Some(tolerance) = plan.tolerance else {
+        return Pace::fixed(plan.scheme, snake, state, plan.dt, plan.start_rule);
+    };
+    let pace = Pace::chosen(plan.scheme, snake, state, plan.dt, tolerance)?;
+    Ok(if plan.each { pace.each() } else { pace })
 }
 
 /// An error of the scheme, under the key it belongs to.

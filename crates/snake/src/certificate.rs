@@ -4,9 +4,9 @@ use std::fmt;
 
 use banded::{Circulant, Dense};
 use glam::DVec2;
-use integrator::{Fault, Scheme, State, System};
+use integrator::{Fault, Limit, Scheme, State, System};
 
-use crate::{Acting, Pull, Snake};
+use crate::{Acting, ImageForce, Pull, RegionForce, SignedEdgeForce, Snake};
 
 /// The most nodes whose modes are found one by one where the curve is not a ring of equal nodes.
 const MOST: usize = 400;
@@ -128,6 +128,31 @@ impl Certificate {
             modes,
             complete,
         }
+    }
+
+    /// The largest step of one scheme wherever the nodes may go, and what sets it; None where any is stable.
+    ///
+    /// As [`Certificate::of`] without a state, for whoever needs no more: O(n), and O(pixels).
+    #[must_use]
+    pub fn limit(snake: &Snake, scheme: Scheme) -> Option<Limit> {
+        let own = Limit::of(scheme, snake);
+        let implicit = scheme == Scheme::LinearlyImplicit;
+        let pull = felt(snake, None, |acting| !implicit || acting.couples());
+        let drawn = felt(snake, None, |acting| !implicit && is_picture(acting));
+        let shortest = Scheme::Leapfrog.step_limit(snake).unwrap_or(1.0);
+        let dt = scheme.step_limit(&Felt { snake, pull });
+        let dt = dt.filter(|dt| *dt < 1e12 * shortest)?;
+        let picture = drawn.stiffness >= 0.5 * pull.stiffness;
+        // rates add up: what the limit without forces leaves over is theirs
+        let theirs = own.map_or(1.0, |own| 1.0 - (dt / own.dt) * (dt / own.dt));
+        let of = match own {
+            Some(own) if theirs < 1e-3 => own.of,
+            Some(_) if theirs < 0.5 && picture => "the elastic force and the slope of the picture",
+            Some(_) if theirs < 0.5 => "the elastic force and the slopes of other forces",
+            _ if picture => "the slope of the picture",
+            _ => "the slope of a force",
+        };
+        Some(Limit { dt, of })
     }
 
     /// The rate of the mode that is last to come to rest. T⁻¹. 0 where one never does.
@@ -327,6 +352,13 @@ fn felt(snake: &Snake, state: Option<&State>, counts: impl Fn(&Acting) -> bool) 
         sum.damping += pull.damping;
     }
     sum
+}
+
+/// Whether a force is that of a picture.
+fn is_picture(acting: &Acting) -> bool {
+    acting.downcast::<ImageForce>().is_some()
+        || acting.downcast::<SignedEdgeForce>().is_some()
+        || acting.downcast::<RegionForce>().is_some()
 }
 
 /// The snake with the slopes of its forces where a penalty wall would be, to ask for largest steps.

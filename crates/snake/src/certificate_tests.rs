@@ -164,3 +164,34 @@ fn a_penalty_wall_and_a_node_without_mass_are_seen() {
     let massless = Certificate::of(&Snake::new(light, World::default()).unwrap(), None);
     assert!(massless.elastic.is_infinite());
 }
+
+#[test]
+fn a_limit_names_what_sets_it() {
+    let n = 24;
+    let circle = |snake: Snake| Certificate::limit(&snake, Scheme::Leapfrog).unwrap();
+    let plain = circle(ring(n, 0.5));
+    assert_eq!(plain.of, "the elastic force");
+    // leapfrog: 4 μ/dt² is the largest stiffness, and a slope adds to it
+    let elastic = 4.0 * 2.0 / (plain.dt * plain.dt);
+    for (share, of) in [
+        (1e-4, "the elastic force"),
+        (0.3, "the elastic force and the slope of the picture"),
+        (3.0, "the slope of the picture"),
+    ] {
+        let slope = share * elastic;
+        let field = Arc::new(ndarray_like(41, |x| slope * (20.0 - x)));
+        let world = World::default().with_image(field, Sampling::Bilinear);
+        let snake = || Snake::new(ring(n, 0.5).body().clone(), world.clone()).unwrap();
+        let limit = circle(snake());
+        assert_eq!(limit.of, of, "{share}");
+        let expected = plain.dt / (1.0 + share).sqrt();
+        assert!(
+            (limit.dt / expected - 1.0).abs() < 1e-9,
+            "{share}: {limit:?}"
+        );
+        // elastic force implicit: nothing but the picture is left, and nothing at all with its slope in the matrix
+        let imex = Certificate::limit(&snake(), Scheme::Newmark).unwrap();
+        assert_eq!(imex.of, "the slope of the picture");
+        assert_eq!(Certificate::limit(&snake(), Scheme::LinearlyImplicit), None);
+    }
+}

@@ -14,12 +14,12 @@ pub use upkeep::{Event, EventKind, Plastic, Upkeep};
 
 use elastic::Topology;
 use glam::DVec2;
-use integrator::{Fault, FaultKind, Scheme, SchemeError, Start, State, Stepper, System};
+use integrator::{Fault, FaultKind, Limit, Scheme, SchemeError, Start, State, Summary, System};
 use outline::OutlineError;
 
 use crate::rest::{Verdict, Watch};
 use crate::run::FAR;
-use crate::{Energies, Ledger, Rest, Snake, SnakeError};
+use crate::{Energies, Ledger, Pace, Rest, Snake, SnakeError};
 use contact::{Half, Meetings};
 use footing::Footings;
 
@@ -32,7 +32,7 @@ pub struct Member {
     pub snake: Snake,
     /// Where it is.
     pub state: State,
-    stepper: Box<dyn Stepper>,
+    pace: Pace,
     ledger: Ledger,
     /// Its spacing when it joined: what upkeep holds to.
     spacing: f64,
@@ -108,11 +108,18 @@ pub struct Timing {
     pub scheme: Scheme,
     /// The step. T.
     pub dt: f64,
+    /// Make every step in as many sub-steps as it takes for each to err by at most so much, contacts between
+    /// snakes left out; these are met in equal parts of the step, below a quarter of their own limit. None: steps as
+    /// they are. L.
+    pub tolerance: Option<f64>,
     /// How a scheme with memory begins.
     pub start: Start,
     /// Whether a step beyond the limit of a snake is made all the same.
     pub force: bool,
 }
+
+/// Share of the contacts' limit that chosen steps have: they err by the square of it.
+const RESOLVED: f64 = 0.25;
 
 /// Snakes that share a world and know of each other.
 #[derive(Debug)]
@@ -126,8 +133,14 @@ pub struct Crowd {
     footings: Footings,
     events: Vec<Event>,
     next_id: usize,
+    begin: f64,
     t: f64,
     step: u64,
+    /// Parts of a step, each begun and ended by the contacts; and what asks for more than one.
+    parts: u64,
+    cut: Option<Limit>,
+    /// Sub-steps of steppers that are gone.
+    made: Option<Summary>,
     /// Lost in contacts between members, and all losses of members that are gone.
     lost: f64,
     /// Minus the work of forces on members that are gone.
@@ -160,41 +173,107 @@ impl Crowd {
             footings: Footings::default(),
             events: Vec::new(),
             next_id: 0,
+            begin: t,
             t,
             step: 0,
+            parts: 1,
+            cut: None,
+            made: None,
             lost: 0.0,
             work: 0.0,
             taken: 0.0,
         };
         upkeep.validate()?;
-        for (member, (snake, state)) in snakes.into_iter().enumerate() {
-            timing
-                .scheme
-                .check(&snake, timing.dt, timing.force)
-                .map_err(|error| CrowdError::Scheme { member, error })?;
-            crowd.join(snake, State { t, ..state })?;
-        }
+        let masses = snakes.iter().flat_map(|(snake, _)| snake.mass());
+        let least = masses.copied().fold(f64::INFINITY, f64::min);
         if let Some(contact) = &crowd.contact {
             contact.validate()?;
-            let limit = contact.step_limit(&crowd.members);
-            if timing.dt > limit {
-                return Err(CrowdError::AboveLimit {
-                    dt: timing.dt,
-                    limit,
-                });
-            }
+            crowd.cut(contact.step_limit(least))?;
+        }
+        for (member, (snake, state)) in snakes.into_iter().enumerate() {
+            // sub-steps stay below the limit by themselves
+            let force = timing.force || timing.tolerance.is_some();
+            timing
+                .scheme
+                .check(&snake, timing.dt, force)
+                .map_err(|error| CrowdError::Scheme { member, error })?;
+            crowd.join(snake, State { t, ..state })?;
         }
         crowd.meet(None)?;
         Ok(crowd)
     }
 
+    /// Cut the step into parts below the limit of the contacts, or refuse it where it may not be cut.
+    fn cut(&mut self, limit: f64) -> Result<(), CrowdError> {
+        let dt = self.timing.dt;
+        let most = match self.timing.tolerance {
+            Some(_) => RESOLVED * limit,
+            None => limit,
+        };
+        if dt <= most {
+            return Ok(());
+        }
+        let parts = (dt / (RESOLVED * limit)).ceil();
+        // more would take longer than anybody waits for one step
+        if self.timing.tolerance.is_none() || !(limit > 0.0 && parts < 1e9) {
+            return Err(CrowdError::AboveLimit { dt, limit });
+        }
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "between 1 and 1e9"
+        )]
+        let parts = parts as u64;
+        self.parts = parts;
+        self.cut = Some(Limit {
+            dt: most,
+            of: "the contacts between snakes, with a margin to resolve them",
+        });
+        Ok(())
+    }
+
+    /// The length of a part of a step. T.
+    const fn part(&self) -> f64 {
+        self.timing.dt / self.parts as f64
+    }
+
+    /// What moves a snake of this crowd.
+    fn pace(&self, snake: &mut Snake, state: &State, start: Start) -> Result<Pace, SchemeError> {
+        let Timing {
+            scheme, tolerance, ..
+        } = self.timing;
+        let Some(tolerance) = tolerance else {
+            return Pace::fixed(scheme, snake, state, self.timing.dt, start);
+        };
+        let pace = Pace::chosen(scheme, snake, state, self.part(), tolerance)?;
+        Ok(match self.cut {
+            Some(limit) => pace.cut_by(limit),
+            None => pace,
+        })
+    }
+
+    /// Keep what is known of the sub-steps of a stepper that goes.
+    fn remember(&mut self, k: usize) {
+        if let Some(gone) = self.members[k].pace.summary().filter(|s| s.made > 0) {
+            let made = self.made.map_or(*gone, |made| made.with(gone));
+            self.made = Some(made);
+        }
+    }
+
+    /// What became of the sub-steps of all members, where they are chosen.
+    #[must_use]
+    pub fn summary(&self) -> Option<Summary> {
+        let members = self.members.iter().filter_map(|m| m.pace.summary());
+        let mut all = self.made.iter().chain(members);
+        let first = *all.next()?;
+        Some(all.fold(first, |sum, more| sum.with(more)))
+    }
+
     /// One more snake, from now on.
     fn join(&mut self, mut snake: Snake, state: State) -> Result<(), CrowdError> {
         let member = self.next_id;
-        let stepper = self
-            .timing
-            .scheme
-            .start(&mut snake, &state, self.timing.dt, self.timing.start)
+        let pace = self
+            .pace(&mut snake, &state, self.timing.start)
             .map_err(|error| CrowdError::Scheme { member, error })?;
         let ledger = Ledger::begin(&mut snake, &state)
             .map_err(|fault| CrowdError::Fault { member, fault })?;
@@ -203,7 +282,7 @@ impl Crowd {
             id: member,
             snake,
             state,
-            stepper,
+            pace,
             ledger,
             spacing,
             watch: None,
@@ -248,15 +327,35 @@ impl Crowd {
     ///
     /// The first snake that could not make its step, or whose curve could not be kept in order.
     pub fn step(&mut self) -> Result<(), CrowdError> {
-        let half = 0.5 * self.timing.dt;
+        for part in 1..=self.parts {
+            self.go(part)?;
+        }
+        self.step += 1;
+        if self.upkeep.is_due(self.step) {
+            self.keep_up()?;
+        }
+        self.look();
+        Ok(())
+    }
+
+    /// Move everything on by one part of the step.
+    fn go(&mut self, part: u64) -> Result<(), CrowdError> {
+        let half = 0.5 * self.part();
         self.kick(half, Half::First)?;
+        // counted, not added up, unless the report's clock is asked for (D20)
+        let share = self.step as f64 + part as f64 / self.parts as f64;
+        let t = self.begin + share * self.timing.dt;
+        let counted = self.timing.scheme != Scheme::Report;
         for member in &mut self.members {
             let id = member.id;
             let fault = |fault| CrowdError::Fault { member: id, fault };
-            member
-                .stepper
+            let stepper = member.pace.stepper();
+            stepper
                 .step(&mut member.snake, &mut member.state)
                 .map_err(fault)?;
+            if counted {
+                member.state.t = t;
+            }
             let somewhere = |x: &DVec2| x.is_finite() && x.abs().max_element() < FAR;
             if let Some(node) = member.state.x.iter().position(|x| !somewhere(x)) {
                 return Err(fault(Fault {
@@ -270,15 +369,9 @@ impl Crowd {
                 .book(&mut member.snake, &member.state)
                 .map_err(fault)?;
         }
-        self.step += 1;
         self.t = self.members.first().map_or(self.t, |member| member.state.t);
-        self.meet(Some(self.timing.dt))?;
-        self.kick(half, Half::Second)?;
-        if self.upkeep.is_due(self.step) {
-            self.keep_up()?;
-        }
-        self.look();
-        Ok(())
+        self.meet(Some(self.part()))?;
+        self.kick(half, Half::Second)
     }
 
     /// Watch for rest from now on. Where curves rub on each other without sticking, what friction holds cannot be
@@ -411,7 +504,8 @@ impl Crowd {
 impl Member {
     /// Tell its scheme and its ledger that someone else has moved it.
     fn resume(&mut self) -> Result<(), CrowdError> {
-        self.stepper.resume(&mut self.snake, &self.state);
+        let stepper = self.pace.stepper();
+        stepper.resume(&mut self.snake, &self.state);
         self.ledger
             .resume(&mut self.snake, &self.state)
             .map_err(|fault| CrowdError::Fault {

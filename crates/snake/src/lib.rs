@@ -48,6 +48,7 @@ mod force;
 mod hand;
 mod inner;
 mod ledger;
+mod pace;
 mod parameters;
 mod rest;
 mod run;
@@ -70,6 +71,7 @@ pub use force::{
     Sampling, SignedEdgeForce, Spring,
 };
 pub use ledger::Ledger;
+pub use pace::Pace;
 pub use rest::Rest;
 pub use run::{Outcome, Until, run};
 pub use schedule::{Schedule, Schedules};

@@ -16,6 +16,8 @@ pub(crate) const FAR: f64 = 1e12;
 pub struct Until {
     /// After so many steps at the latest.
     pub steps: u64,
+    /// At this time, if steps are of no one length. T.
+    pub time: Option<f64>,
     /// When at rest, if asked for; then also when it goes round in circles, is lost or collapses.
     pub rest: Option<Rest>,
 }
@@ -24,7 +26,11 @@ impl Until {
     /// After `steps` steps.
     #[must_use]
     pub const fn steps(steps: u64) -> Self {
-        Self { steps, rest: None }
+        Self {
+            steps,
+            time: None,
+            rest: None,
+        }
     }
 
     /// When at rest, or after `steps` steps.
@@ -32,6 +38,7 @@ impl Until {
     pub const fn at_rest(rest: Rest, steps: u64) -> Self {
         Self {
             steps,
+            time: None,
             rest: Some(rest),
         }
     }
@@ -176,7 +183,8 @@ pub fn run(
 ) -> Outcome {
     let begin = state.step;
     let mut watch = until.rest.map(|rest| Watch::new(rest, snake, state));
-    while state.step - begin < until.steps {
+    let over = |state: &State| until.time.is_some_and(|end| state.t >= end);
+    while state.step - begin < until.steps && !over(state) {
         if let Err(fault) = stepper.step(snake, state) {
             let (step, node) = (state.step, fault.node);
             return match fault.kind {

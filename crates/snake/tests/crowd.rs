@@ -28,6 +28,7 @@ fn timing(scheme: Scheme, dt: f64) -> Timing {
     Timing {
         scheme,
         dt,
+        tolerance: None,
         start: Start::SecondOrder,
         force: false,
     }

@@ -90,6 +90,7 @@ fn run() -> Result<Record, SandboxError> {
         let timing = Timing {
             scheme: Scheme::Leapfrog,
             dt,
+            tolerance: None,
             start: Start::SecondOrder,
             force: false,
         };

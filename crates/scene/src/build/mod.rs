@@ -14,6 +14,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use snake::{Snake, SnakeError};
 
+pub(crate) use plan::USUAL_TOLERANCE;
 pub(crate) use world::{outside, smoothing};
 
 use crate::file::{InvalidText, PictureText, Rule, RulesText, SceneText, UpDown, ViewText};

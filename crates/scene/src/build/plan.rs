@@ -5,7 +5,7 @@ use snake::{Rest, Until};
 
 use super::{Rules, number};
 use crate::SceneError;
-use crate::file::{RecordText, RestText, Rule, RunText, SceneText, StepText};
+use crate::file::{OutputText, RecordText, RestText, Rule, RunText, SceneText, StepText};
 use crate::limits::MOST_STEPS;
 use crate::scene::{Plan, Recording};
 
@@ -19,8 +19,14 @@ pub(super) fn plan(text: &SceneText, rules: Rules) -> Result<Plan, SceneError> {
         None => Scheme::Leapfrog,
     };
     let (dt, tolerance) = step(run)?;
+    let each = run.output == Some(OutputText::Every);
     let until = Until {
-        steps: steps(run, dt, rules)?,
+        steps: if each {
+            at_most(run.steps.unwrap_or(MOST_STEPS))?
+        } else {
+            steps(run, dt, rules)?
+        },
+        time: if each { run.time } else { None },
         rest: run.rest.as_ref().map(rest).transpose()?,
     };
     let start_rule = match rules.start {
@@ -31,6 +37,7 @@ pub(super) fn plan(text: &SceneText, rules: Rules) -> Result<Plan, SceneError> {
         scheme,
         dt,
         tolerance,
+        each,
         until,
         start_rule,
         force: run.force,
@@ -39,14 +46,17 @@ pub(super) fn plan(text: &SceneText, rules: Rules) -> Result<Plan, SceneError> {
 }
 
 /// Largest error of a sub-step in pixels, unless given.
-const USUAL_TOLERANCE: f64 = 1e-3;
+pub(crate) const USUAL_TOLERANCE: f64 = 1e-3;
 
 /// The step, and the tolerance of its sub-steps if they are to be chosen.
 fn step(run: &RunText) -> Result<(f64, Option<f64>), SceneError> {
     match run.dt {
         StepText::Fixed(dt) => {
-            for (key, given) in [("run.tolerance", run.tolerance), ("run.output", run.output)] {
-                if given.is_some() {
+            for (key, given) in [
+                ("run.tolerance", run.tolerance.is_some()),
+                ("run.output", run.output.is_some()),
+            ] {
+                if given {
                     let message = "is for chosen steps; with it dt = \"auto\" would do";
                     return Err(SceneError::key(key, message));
                 }
@@ -57,7 +67,14 @@ fn step(run: &RunText) -> Result<(f64, Option<f64>), SceneError> {
             let tolerance = run.tolerance.unwrap_or(USUAL_TOLERANCE);
             let tolerance = number::above_zero("run.tolerance", tolerance)?;
             let output = match (run.output, run.time) {
-                (Some(output), _) => output,
+                (Some(OutputText::Time(output)), _) => output,
+                (Some(OutputText::Every), Some(time)) => {
+                    return Ok((number::above_zero("run.time", time)?, Some(tolerance)));
+                }
+                (Some(OutputText::Every), None) => {
+                    let message = "is missing; the time at which the run ends would do";
+                    return Err(SceneError::key("run.time", message));
+                }
                 (None, Some(time)) => time / 1000.0,
                 (None, None) => {
                     let message = "is missing; the time between two steps would do";
@@ -72,11 +89,7 @@ fn step(run: &RunText) -> Result<(f64, Option<f64>), SceneError> {
 fn steps(run: &RunText, dt: f64, rules: Rules) -> Result<u64, SceneError> {
     let most = MOST_STEPS as f64;
     match (run.steps, run.time) {
-        (Some(steps), None) if steps <= MOST_STEPS => Ok(steps),
-        (Some(steps), None) => {
-            let message = format!("at most {MOST_STEPS} would do, got {steps}");
-            Err(SceneError::key("run.steps", message))
-        }
+        (Some(steps), None) => at_most(steps),
         (None, Some(time)) if time.is_finite() && time >= 0.0 && time / dt < most => {
             match rules.clock {
                 Rule::Report => integrator::report_steps(time, dt).ok_or_else(|| {
@@ -99,6 +112,15 @@ fn steps(run: &RunText, dt: f64, rules: Rules) -> Result<u64, SceneError> {
             "has both steps and time; one of them would do",
         )),
     }
+}
+
+/// A number of steps that can be meant.
+fn at_most(steps: u64) -> Result<u64, SceneError> {
+    if steps <= MOST_STEPS {
+        return Ok(steps);
+    }
+    let message = format!("at most {MOST_STEPS} would do, got {steps}");
+    Err(SceneError::key("run.steps", message))
 }
 
 fn rest(text: &RestText) -> Result<Rest, SceneError> {

@@ -111,3 +111,21 @@ impl<'de> Deserialize<'de> for StepText {
         }
     }
 }
+
+/// The time between two steps: a number, or the word for each sub-step being one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum OutputText {
+    Time(f64),
+    Every,
+}
+
+impl<'de> Deserialize<'de> for OutputText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match toml::Value::deserialize(deserializer)? {
+            toml::Value::Float(value) => Ok(Self::Time(value)),
+            toml::Value::String(word) if word == "every" => Ok(Self::Every),
+            toml::Value::Integer(value) => inner(toml::Value::Integer(value)).map(Self::Time),
+            other => Err(wrong("a number above 0 or \"every\"", &other)),
+        }
+    }
+}

@@ -11,7 +11,7 @@ use serde::Deserialize;
 
 pub(crate) use company::{AlsoText, ContactText, UpkeepText};
 pub(crate) use force::*;
-pub(crate) use forms::{ProfileText, RulesText, StepText, TopologyText};
+pub(crate) use forms::{OutputText, ProfileText, RulesText, StepText, TopologyText};
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -346,7 +346,7 @@ pub(crate) struct RunText {
     pub tolerance: Option<f64>,
     /// Time between steps, where sub-steps are chosen.
     #[serde(default)]
-    pub output: Option<f64>,
+    pub output: Option<OutputText>,
     #[serde(default)]
     pub steps: Option<u64>,
     #[serde(default)]

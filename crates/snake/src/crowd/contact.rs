@@ -115,10 +115,9 @@ impl Contact {
         }
     }
 
-    /// The largest step: a node pushed from two sides, by its own layer and the other's, on both.
-    pub(super) fn step_limit(&self, members: &[Member]) -> f64 {
-        let masses = members.iter().flat_map(|member| member.snake.mass());
-        let least = masses.copied().fold(f64::INFINITY, f64::min);
+    /// The largest step where no node has less mass than `least`: a node pushed from two sides, by its own layer and
+    /// the other's, on both.
+    pub(super) fn step_limit(&self, least: f64) -> f64 {
         // half a kick twice a step is the leapfrog: dt² k/μ < 4, with k up to eight times as large; what sticks is
         // no stiffer, across
         (4.0 * least / (8.0 * self.stiffness)).sqrt()

@@ -299,8 +299,8 @@ impl Crowd {
 
     /// Put a renewed curve in the place of member `k`.
     fn put(&mut self, k: usize, renewed: Renewed) -> Result<(), CrowdError> {
-        let timing = self.timing;
-        let member = &mut self.members[k];
+        self.remember(k);
+        let member = &self.members[k];
         let mut world = member.snake.world().clone();
         for acting in &mut world.forces {
             acting.carry(&renewed.plan);
@@ -310,24 +310,18 @@ impl Crowd {
         body.recenter()?;
         let mut snake = Snake::new(body, world)?;
         snake.follow(&member.snake, &renewed.plan)?;
-        member.snake = snake;
-        member.state = renewed.state;
-        (member.watch, member.calm) = (None, false);
         let id = member.id;
-        member.stepper = timing
-            .scheme
-            .start(
-                &mut member.snake,
-                &member.state,
-                timing.dt,
-                Start::SecondOrder,
-            )
-            .map_err(|error| CrowdError::Scheme { member: id, error })?;
+        let pace = self.pace(&mut snake, &renewed.state, Start::SecondOrder);
+        let pace = pace.map_err(|error| CrowdError::Scheme { member: id, error })?;
+        let member = &mut self.members[k];
+        (member.snake, member.state, member.pace) = (snake, renewed.state, pace);
+        (member.watch, member.calm) = (None, false);
         member.resume()
     }
 
     /// Take member `k` out; what its ledger has booked stays in the crowd's.
     fn retire(&mut self, k: usize) {
+        self.remember(k);
         let member = self.members.remove(k);
         let (lost, work) = member.ledger.booked();
         self.lost += lost;

@@ -41,6 +41,7 @@ pub(crate) fn crowd_of(id: &'static str, scene: &Scene) -> Result<Crowd, Sandbox
     let timing = Timing {
         scheme: scene.plan.scheme,
         dt: scene.plan.dt,
+        tolerance: None,
         start: scene.plan.start_rule,
         force: scene.plan.force,
     };

@@ -77,6 +77,7 @@ const fn timing(dt: f64) -> Timing {
     Timing {
         scheme: Scheme::Leapfrog,
         dt,
+        tolerance: None,
         start: Start::SecondOrder,
         force: false,
     }
