@@ -1,5 +1,10 @@
 //! Steps that the program chooses: what it says of them, and that they lead where small equal ones do.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a test: small whole numbers"
+)]
 
 mod common;
 
@@ -8,8 +13,8 @@ use common::{Answer, Folder, changed, scene};
 /// The line about sub-steps.
 fn pace(answer: &Answer) -> String {
     let line = answer.err.lines().find(|line| line.contains("sub-steps"));
-    line.unwrap_or_else(|| panic!("says nothing of sub-steps: {answer:?}"))
-        .to_owned()
+    assert!(line.is_some(), "says nothing of sub-steps: {answer:?}");
+    line.unwrap().to_owned()
 }
 
 /// All numbers of a line.

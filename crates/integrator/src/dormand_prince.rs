@@ -70,7 +70,8 @@ const DENSE: [f64; STAGES] = [
 /// [`at`](Self::at) tells where the nodes were at any time within it.
 ///
 /// The error of a sub-step is kept below `tolerance · (1 + |y|)` in the mean square over all
-/// positions and velocities. Six forces a sub-step. Contacts are met at the ends of sub-steps.
+/// positions and velocities. Six forces a sub-step, each with what schedules say at its own time. Contacts are met
+/// at the ends of sub-steps.
 ///
 /// Dormand & Prince 1980; dense output after Hairer, Nørsett & Wanner, *Solving ODEs I*, II.6.
 #[derive(Debug)]
@@ -282,6 +283,7 @@ impl DormandPrince {
             }
             stepper::finite(&self.to.x)?;
             let t = self.from.t + NODES[stage] * h;
+            self.rates.advance(Self::NAME, system, t, &self.from.x)?;
             let (x, v) = (&self.to.x, &self.to.v);
             self.stages_x[stage].copy_from_slice(v);
             self.rates

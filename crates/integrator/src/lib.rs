@@ -52,6 +52,7 @@ mod stepper;
 mod system;
 mod tableau;
 mod watched;
+mod wrapped;
 
 #[cfg(test)]
 mod tests;
@@ -68,3 +69,4 @@ pub use report::report_steps;
 pub use scheme::Scheme;
 pub use stepper::{Start, Stepper};
 pub use system::{Fault, FaultKind, State, System, Touch};
+pub use wrapped::Wrapped;

@@ -1,9 +1,8 @@
 //! One system, moved by several steppers in turn.
 
-use banded::Operator;
-use glam::{DMat2, DVec2};
+use glam::DVec2;
 
-use crate::{Fault, System, Touch};
+use crate::{System, Touch, Wrapped};
 
 /// Which version of a system's parameters there is, and whether something was touched.
 #[derive(Debug, Clone, Copy, Default)]
@@ -22,25 +21,13 @@ pub(crate) struct Watched<'a> {
     pub(crate) seen: &'a mut u64,
 }
 
-impl System for Watched<'_> {
-    fn len(&self) -> usize {
-        self.inner.len()
+impl Wrapped for Watched<'_> {
+    fn inner(&self) -> &dyn System {
+        &*self.inner
     }
 
-    fn mass(&self) -> &[f64] {
-        self.inner.mass()
-    }
-
-    fn damping(&self) -> &[f64] {
-        self.inner.damping()
-    }
-
-    fn held(&self) -> &[bool] {
-        self.inner.held()
-    }
-
-    fn stiffness(&self) -> &Operator {
-        self.inner.stiffness()
+    fn inner_mut(&mut self) -> &mut dyn System {
+        &mut *self.inner
     }
 
     fn advance(&mut self, t: f64) -> bool {
@@ -50,24 +37,6 @@ impl System for Watched<'_> {
         let changed = *self.seen != self.watch.version;
         *self.seen = self.watch.version;
         changed
-    }
-
-    fn elastic(&mut self, x: &[DVec2], force: &mut [DVec2]) {
-        self.inner.elastic(x, force);
-    }
-
-    fn external(
-        &mut self,
-        t: f64,
-        x: &[DVec2],
-        v: &[DVec2],
-        force: &mut [DVec2],
-    ) -> Result<(), Fault> {
-        self.inner.external(t, x, v, force)
-    }
-
-    fn external_is_constant(&self) -> bool {
-        self.inner.external_is_constant()
     }
 
     fn contacts(
@@ -95,11 +64,7 @@ impl System for Watched<'_> {
         }
     }
 
-    fn contact_stiffness(&self) -> (f64, f64) {
-        self.inner.contact_stiffness()
-    }
-
-    fn external_slope(&mut self, t: f64, x: &[DVec2], slope: &mut [DMat2]) -> bool {
-        self.inner.external_slope(t, x, slope)
+    fn met(&mut self, _t: f64, _x: &[DVec2], _v: &[DVec2]) {
+        // whether this happens at all is not decided yet
     }
 }

@@ -29,6 +29,7 @@ const ROUGH: Contact = Contact {
 const TIMING: Timing = Timing {
     scheme: Scheme::Leapfrog,
     dt: 2e-3,
+    tolerance: None,
     start: Start::SecondOrder,
     force: false,
 };

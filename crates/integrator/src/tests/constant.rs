@@ -1,6 +1,5 @@
 //! What schemes do when they know that the external force is constant.
 
-use banded::Operator;
 use glam::DVec2;
 
 use crate::problems::{self, Springs};
@@ -13,25 +12,15 @@ struct Told {
     asked: u32,
 }
 
-impl System for Told {
-    fn len(&self) -> usize {
-        self.springs.len()
+impl crate::Wrapped for Told {
+    fn inner(&self) -> &dyn System {
+        &self.springs
     }
-    fn mass(&self) -> &[f64] {
-        self.springs.mass()
+
+    fn inner_mut(&mut self) -> &mut dyn System {
+        &mut self.springs
     }
-    fn damping(&self) -> &[f64] {
-        self.springs.damping()
-    }
-    fn held(&self) -> &[bool] {
-        self.springs.held()
-    }
-    fn stiffness(&self) -> &Operator {
-        self.springs.stiffness()
-    }
-    fn elastic(&mut self, x: &[DVec2], force: &mut [DVec2]) {
-        self.springs.elastic(x, force);
-    }
+
     fn external(
         &mut self,
         t: f64,

@@ -1,10 +1,9 @@
 //! Obstacles: what comes out is not more than what went in.
 
-use banded::Operator;
 use glam::DVec2;
 
 use crate::problems::{self, Springs};
-use crate::{Fault, Scheme, Start, State, System, Touch, kinetic_energy};
+use crate::{Scheme, Start, State, System, Touch, kinetic_energy};
 
 /// Springs above a floor at y = 0 (y down), which sends back `restitution` of the speed.
 pub(super) struct Floor {
@@ -12,34 +11,15 @@ pub(super) struct Floor {
     restitution: f64,
 }
 
-impl System for Floor {
-    fn len(&self) -> usize {
-        self.springs.len()
+impl crate::Wrapped for Floor {
+    fn inner(&self) -> &dyn System {
+        &self.springs
     }
-    fn mass(&self) -> &[f64] {
-        self.springs.mass()
+
+    fn inner_mut(&mut self) -> &mut dyn System {
+        &mut self.springs
     }
-    fn damping(&self) -> &[f64] {
-        self.springs.damping()
-    }
-    fn held(&self) -> &[bool] {
-        self.springs.held()
-    }
-    fn stiffness(&self) -> &Operator {
-        self.springs.stiffness()
-    }
-    fn elastic(&mut self, x: &[DVec2], force: &mut [DVec2]) {
-        self.springs.elastic(x, force);
-    }
-    fn external(
-        &mut self,
-        t: f64,
-        x: &[DVec2],
-        v: &[DVec2],
-        force: &mut [DVec2],
-    ) -> Result<(), Fault> {
-        self.springs.external(t, x, v, force)
-    }
+
     fn contacts(
         &mut self,
         _dt: f64,

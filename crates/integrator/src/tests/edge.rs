@@ -13,25 +13,15 @@ struct Edge {
     strength: f64,
 }
 
-impl System for Edge {
-    fn len(&self) -> usize {
-        self.springs.len()
+impl crate::Wrapped for Edge {
+    fn inner(&self) -> &dyn System {
+        &self.springs
     }
-    fn mass(&self) -> &[f64] {
-        self.springs.mass()
+
+    fn inner_mut(&mut self) -> &mut dyn System {
+        &mut self.springs
     }
-    fn damping(&self) -> &[f64] {
-        self.springs.damping()
-    }
-    fn held(&self) -> &[bool] {
-        self.springs.held()
-    }
-    fn stiffness(&self) -> &Operator {
-        self.springs.stiffness()
-    }
-    fn elastic(&mut self, x: &[DVec2], force: &mut [DVec2]) {
-        self.springs.elastic(x, force);
-    }
+
     fn external(
         &mut self,
         _t: f64,
@@ -45,6 +35,10 @@ impl System for Edge {
         }
         Ok(())
     }
+    fn external_is_constant(&self) -> bool {
+        false
+    }
+
     fn external_slope(&mut self, _t: f64, x: &[DVec2], slope: &mut [DMat2]) -> bool {
         for (x, slope) in x.iter().zip(slope) {
             let (n, r) = (x.normalize(), x.length());

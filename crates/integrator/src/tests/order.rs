@@ -148,3 +148,98 @@ fn dormand_and_prince_keep_the_tolerance_and_fill_the_gaps() {
         );
     }
 }
+
+/// A node on a spring that weakens, in a resistance that fades, pushed by `(1 + t)⁻²`:
+/// `ẍ + ẋ/(1+t) + 4x/(1+t)² = 1/(1+t)²`, so `x = ¼ + ¾ cos(2 ln(1+t))` from rest at 1.
+struct Fading {
+    springs: problems::Springs,
+    band: banded::Pentadiagonal,
+    at: f64,
+}
+
+impl Fading {
+    fn new() -> (Self, crate::State) {
+        let springs = problems::damped_spring(1.0, 1.0, 4.0).unwrap().system;
+        let state = crate::State::at_rest(vec![glam::DVec2::X; springs.rest.len()]);
+        let band = crate::System::stiffness(&springs).band().clone();
+        let mut fading = Self {
+            springs,
+            band,
+            at: 0.0,
+        };
+        fading.springs.rest.fill(glam::DVec2::ZERO);
+        fading.turn(0.0);
+        (fading, state)
+    }
+
+    fn turn(&mut self, t: f64) {
+        let fade = 1.0 / (1.0 + t);
+        self.at = t;
+        self.springs.damping.fill(fade);
+        let mut band = self.band.clone();
+        band.scale(fade * fade);
+        self.springs.set_stiffness(band.into());
+    }
+}
+
+impl crate::Wrapped for Fading {
+    fn inner(&self) -> &dyn crate::System {
+        &self.springs
+    }
+
+    fn inner_mut(&mut self) -> &mut dyn crate::System {
+        &mut self.springs
+    }
+
+    fn advance(&mut self, t: f64) -> bool {
+        let changed = t.to_bits() != self.at.to_bits();
+        self.turn(t);
+        changed
+    }
+
+    fn external_is_constant(&self) -> bool {
+        false
+    }
+
+    fn external(
+        &mut self,
+        t: f64,
+        _x: &[glam::DVec2],
+        _v: &[glam::DVec2],
+        force: &mut [glam::DVec2],
+    ) -> Result<(), crate::Fault> {
+        for force in force {
+            force.x += 1.0 / ((1.0 + t) * (1.0 + t));
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn the_stages_of_runge_and_kutta_see_what_schedules_say_at_their_own_times() {
+    for (scheme, order) in [
+        (Scheme::Rk4, 4.0),
+        // so loose that every sub-step is the step
+        (Scheme::DormandPrince { tolerance: 1.0 }, 5.0),
+    ] {
+        let error = |steps: u32| {
+            let (mut system, mut state) = Fading::new();
+            let dt = 3.0 / f64::from(steps);
+            let mut stepper = scheme
+                .start(&mut system, &state, dt, Start::SecondOrder)
+                .unwrap();
+            for _ in 0..steps {
+                stepper.step(&mut system, &mut state).unwrap();
+            }
+            let phase = 2.0 * 4.0_f64.ln();
+            let exact = (0.25 + 0.75 * phase.cos(), -1.5 * phase.sin() / 4.0);
+            (state.x[0].x - exact.0).hypot(state.v[0].x - exact.1)
+        };
+        let (coarse, fine) = (error(48), error(192));
+        let found = (coarse / fine).log2() / 2.0;
+        assert!(
+            (found - order).abs() < 0.15,
+            "{scheme}: order {found}, {coarse} {fine}"
+        );
+    }
+}

@@ -1,9 +1,8 @@
 //! A ring on an edge, with the edge as a formula: smooth, so that orders can be seen.
 
-use banded::Operator;
 use glam::{DMat2, DVec2};
 use integrator::problems::Springs;
-use integrator::{Fault, System};
+use integrator::{Fault, System, Wrapped};
 
 /// A round edge beside the middle of the ring: place, radius, steepness and reach.
 const MIDDLE: DVec2 = DVec2::new(0.8, -0.5);
@@ -39,29 +38,13 @@ fn pull(p: DVec2) -> (DVec2, DMat2) {
     )
 }
 
-impl System for EdgeRing {
-    fn len(&self) -> usize {
-        self.ring.len()
+impl Wrapped for EdgeRing {
+    fn inner(&self) -> &dyn System {
+        &self.ring
     }
 
-    fn mass(&self) -> &[f64] {
-        self.ring.mass()
-    }
-
-    fn damping(&self) -> &[f64] {
-        self.ring.damping()
-    }
-
-    fn held(&self) -> &[bool] {
-        self.ring.held()
-    }
-
-    fn stiffness(&self) -> &Operator {
-        self.ring.stiffness()
-    }
-
-    fn elastic(&mut self, x: &[DVec2], force: &mut [DVec2]) {
-        self.ring.elastic(x, force);
+    fn inner_mut(&mut self) -> &mut dyn System {
+        &mut self.ring
     }
 
     fn external(
@@ -75,6 +58,10 @@ impl System for EdgeRing {
             *f += pull(p).0;
         }
         Ok(())
+    }
+
+    fn external_is_constant(&self) -> bool {
+        false
     }
 
     fn external_slope(&mut self, _t: f64, x: &[DVec2], slope: &mut [DMat2]) -> bool {

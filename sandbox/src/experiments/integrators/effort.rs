@@ -1,9 +1,8 @@
 //! What a scheme needs for how much error: forces counted, time taken, distance from the truth.
 
 use super::trial::Trial;
-use banded::Operator;
-use glam::{DMat2, DVec2};
-use integrator::{Fault, Scheme, Start, System, Touch};
+use glam::DVec2;
+use integrator::{Fault, Scheme, Start, System, Wrapped};
 use std::time::Instant;
 
 /// A stopwatch for one thread on a machine that does other things as well.
@@ -57,29 +56,13 @@ struct Counted<'a> {
     external: u64,
 }
 
-impl System for Counted<'_> {
-    fn len(&self) -> usize {
-        self.inner.len()
+impl Wrapped for Counted<'_> {
+    fn inner(&self) -> &dyn System {
+        &*self.inner
     }
 
-    fn mass(&self) -> &[f64] {
-        self.inner.mass()
-    }
-
-    fn damping(&self) -> &[f64] {
-        self.inner.damping()
-    }
-
-    fn held(&self) -> &[bool] {
-        self.inner.held()
-    }
-
-    fn stiffness(&self) -> &Operator {
-        self.inner.stiffness()
-    }
-
-    fn advance(&mut self, t: f64) -> bool {
-        self.inner.advance(t)
+    fn inner_mut(&mut self) -> &mut dyn System {
+        &mut *self.inner
     }
 
     fn elastic(&mut self, x: &[DVec2], force: &mut [DVec2]) {
@@ -96,29 +79,6 @@ impl System for Counted<'_> {
     ) -> Result<(), Fault> {
         self.external += 1;
         self.inner.external(t, x, v, force)
-    }
-
-    fn external_is_constant(&self) -> bool {
-        self.inner.external_is_constant()
-    }
-
-    fn contacts(
-        &mut self,
-        dt: f64,
-        before: &[DVec2],
-        x: &[DVec2],
-        v: &[DVec2],
-        touches: &mut Vec<Touch>,
-    ) {
-        self.inner.contacts(dt, before, x, v, touches);
-    }
-
-    fn contact_stiffness(&self) -> (f64, f64) {
-        self.inner.contact_stiffness()
-    }
-
-    fn external_slope(&mut self, t: f64, x: &[DVec2], slope: &mut [DMat2]) -> bool {
-        self.inner.external_slope(t, x, slope)
     }
 }
 
