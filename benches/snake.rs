@@ -1,7 +1,8 @@
 //! One whole step of a snake: elastic force or solve, image, walls, update.
 //!
 //! `step/SCHEME/free` has no picture, `step/SCHEME/image` samples a 512² field, which stays in
-//! cache for a snake of moderate size; throughput is in nodes.
+//! cache for a snake of moderate size; throughput is in nodes. `step/dense` is the slow twin: the same step
+//! with the stiffness as a full matrix.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -10,10 +11,16 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use elastic::{Material, Topology};
 use field::{EdgeForce, ForceField, Grid};
 use glam::DVec2;
-use integrator::{Scheme, Start, State};
+use integrator::{Scheme, Start, State, System};
 use snake::{Body, Sampling, Snake, World};
 
 const NODES: [usize; 5] = [32, 128, 512, 2048, 8192];
+
+/// For the schemes that bars were set for: far beyond all caches.
+const MANY: [usize; 3] = [32_768, 262_144, 1_000_000];
+
+/// As many as a dense matrix of is worth waiting for.
+const FEW: [usize; 3] = [32, 512, 2048];
 
 /// A disk's field: as large as a picture of a camera, and with an edge.
 fn disk() -> Arc<ForceField> {
@@ -44,7 +51,9 @@ fn step(c: &mut Criterion) {
         for image in [false, true] {
             let place = if image { "image" } else { "free" };
             let mut group = c.benchmark_group(format!("step/{}/{place}", scheme.name()));
-            for n in NODES {
+            let long = matches!(scheme, Scheme::Leapfrog | Scheme::Imex);
+            let more = MANY.iter().filter(|_| long);
+            for &n in NODES.iter().chain(more) {
                 let world = if image {
                     World::default().with_image(Arc::clone(&field), Sampling::Bilinear)
                 } else {
@@ -69,5 +78,37 @@ fn step(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, step);
+/// The explicit step with a full matrix: what a program costs that does not know its matrix is banded.
+fn dense(c: &mut Criterion) {
+    let mut group = c.benchmark_group("step/dense/free");
+    for n in FEW {
+        let (snake, state) = ring(n, World::default());
+        let operator = snake.stiffness();
+        let (mut matrix, mut unit) = (vec![0.0; n * n], vec![0.0; n]);
+        for (row, out) in matrix.chunks_mut(n).enumerate() {
+            unit[row] = 1.0;
+            operator.multiply_scalars_into(&unit, out); // symmetric: a row is a column
+            unit[row] = 0.0;
+        }
+        let (mut x, mut v) = (state.x, state.v);
+        let rest = snake.body().rest.clone();
+        group.throughput(Throughput::Elements(n as u64));
+        group.bench_function(BenchmarkId::from_parameter(n), |b| {
+            b.iter(|| {
+                let e: Vec<DVec2> = x.iter().zip(&rest).map(|(x, r)| x - r).collect();
+                for (row, v) in matrix.chunks(n).zip(&mut v) {
+                    let pull: DVec2 = row.iter().zip(&e).map(|(&k, &e)| k * e).sum();
+                    *v = (*v * 0.975 - 0.05 * pull) / 1.025;
+                }
+                for (x, v) in x.iter_mut().zip(&v) {
+                    *x += 0.05 * v;
+                }
+                black_box(&x);
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, step, dense);
 criterion_main!(benches);

@@ -16,8 +16,9 @@
 //! One spacing serves the whole curve; edges of their own lengths are [`Spacings`](crate::Spacings).
 
 use crate::profile::Lane;
-use crate::{End, Material, Profile, Topology};
+use crate::{End, Material, Topology};
 use glam::DVec2;
+use lanes::{flat, flat_mut, wide};
 
 /// Elastic force on every node: what the curve feels for not being at rest.
 ///
@@ -49,10 +50,8 @@ pub fn elastic_force(
     let per_h2 = 1.0 / (spacing * spacing);
     let per_h4 = per_h2 * per_h2;
     let (tether, tension, rigidity) = (&material.tether, &material.tension, &material.rigidity);
-    if let (Profile::Uniform(w0), Profile::Uniform(w1), Profile::Uniform(w2)) =
-        (tether, tension, rigidity)
-    {
-        uniform(e, topology, [*w0, w1 * per_h2, w2 * per_h4], force);
+    if let Some([w0, w1, w2]) = material.uniform_densities() {
+        uniform(e, topology, [w0, w1 * per_h2, w2 * per_h4], force);
     } else {
         let (w0, w1, w2) = (Lane::new(tether), Lane::new(tension), Lane::new(rigidity));
         let weights = Weights {
@@ -73,28 +72,132 @@ pub fn elastic_force(
 /// near = (e[i−1] − e[i]) + (e[i+1] − e[i]),   far = (e[i−2] − e[i]) + (e[i+2] − e[i])
 /// ```
 ///
-/// Nothing is handed on, so that the loop has no chain; that is worth a third of its time.
+/// Nothing is handed on, so that the loop has no chain and fills registers of any width.
 fn uniform(e: &[DVec2], topology: Topology, [w0, w1, w2]: [f64; 3], force: &mut [DVec2]) {
     let n = e.len();
-    let weights = Weights {
-        w0: |_| w0,
-        w1: |_| w1,
-        w2: |_| w2,
-    };
-    let boundary = weights.boundary(e, topology);
-    let mut walk = boundary.start(e);
-    if n > 4 {
-        weights.walk(&e[..4], walk, force);
-        let near = w1 + 4.0 * w2;
-        for (out, five) in force[2..n - 2].iter_mut().zip(e.windows(5)) {
-            let [a, b, here, c, d] = [five[0], five[1], five[2], five[3], five[4]];
-            *out = (near * ((b - here) + (c - here)) - w2 * ((a - here) + (d - here))) - w0 * here;
-        }
-        walk = weights.resume(e, n - 2);
-    } else {
-        walk = weights.walk(e, walk, force);
+    if n < LEAST {
+        let weights = Weights::uniform([w0, w1, w2]);
+        let boundary = weights.boundary(e, topology);
+        let walk = weights.walk(e, boundary.start(e), force);
+        weights.finish(e, walk, &boundary, force);
+        return;
     }
-    weights.finish(e, walk, &boundary, force);
+    let at = |i: usize| e[i];
+    uniform_ends(
+        std::array::from_fn(|k| at(end_node(k, n))),
+        topology,
+        [w0, w1, w2],
+        force,
+    );
+    let middle = flat_mut(&mut force[2..n - 2]);
+    between(flat(e), [w0, w1, w2], middle);
+}
+
+/// Nodes needed to tell the ends from what is between them.
+const LEAST: usize = 8;
+
+/// The first four nodes of `n` and the last four.
+const fn end_node(k: usize, n: usize) -> usize {
+    if k < 4 { k } else { n - LEAST + k }
+}
+
+/// The force on the two nodes at each end, from the four nodes there.
+fn uniform_ends(ends: [DVec2; LEAST], topology: Topology, w: [f64; 3], force: &mut [DVec2]) {
+    let weights = Weights::uniform(w);
+    let boundary = weights.boundary(&ends, topology);
+    let mut out = [DVec2::ZERO; LEAST];
+    weights.walk(&ends[..4], boundary.start(&ends), &mut out);
+    let walk = weights.resume(&ends, LEAST - 2);
+    weights.finish(&ends, walk, &boundary, &mut out);
+    let n = force.len();
+    force[..2].copy_from_slice(&out[..2]);
+    force[n - 2..].copy_from_slice(&out[LEAST - 2..]);
+}
+
+/// The force on all nodes of `e` but two at each end; `e` and `force` are the coordinates in turn.
+#[inline(always)]
+fn five_points(e: &[f64], [w0, w1, w2]: [f64; 3], force: &mut [f64]) {
+    let m = force.len();
+    let near = w1 + 4.0 * w2;
+    let (a, b, here) = (&e[..m], &e[2..m + 2], &e[4..m + 4]);
+    let (c, d) = (&e[6..m + 6], &e[8..m + 8]);
+    for k in 0..m {
+        let e = here[k];
+        force[k] = (near * ((b[k] - e) + (c[k] - e)) - w2 * ((a[k] - e) + (d[k] - e))) - w0 * e;
+    }
+}
+
+wide! {
+    /// The same in wide registers.
+    fn between(e: &[f64], w: [f64; 3], force: &mut [f64]) {
+        five_points(e, w, force);
+    }
+}
+
+/// Nodes a block: its deformations, and the two on either side, stay in the first cache.
+const BLOCK: usize = 128;
+
+/// Nodes that a block needs: its own and two on either side.
+const REACH: usize = BLOCK + 4;
+
+/// Elastic force on every node of a body: [`elastic_force`] of `e = x − center − rest`.
+///
+/// To the same digits, but where the densities are the same everywhere, `e` is never written down as
+/// a whole. Otherwise it is left in `e`, which has as many nodes. O(n), allocates nothing.
+///
+/// Report Eq. 2.2 and 3.2.
+pub fn body_force(
+    [x, rest]: [&[DVec2]; 2],
+    center: DVec2,
+    (topology, material, spacing): (Topology, &Material, f64),
+    e: &mut [DVec2],
+    force: &mut [DVec2],
+) {
+    let n = x.len();
+    let w = match material.uniform_densities() {
+        Some([w0, w1, w2]) if n >= LEAST => {
+            let per_h2 = 1.0 / (spacing * spacing);
+            [w0, w1 * per_h2, w2 * (per_h2 * per_h2)]
+        }
+        _ => {
+            for ((e, x), rest) in e.iter_mut().zip(x).zip(rest) {
+                *e = x - center - rest;
+            }
+            elastic_force(e, topology, material, spacing, force);
+            return;
+        }
+    };
+    let ends = std::array::from_fn(|k| {
+        let i = end_node(k, n);
+        x[i] - center - rest[i]
+    });
+    uniform_ends(ends, topology, w, force);
+    in_blocks(
+        flat(x),
+        center,
+        flat(rest),
+        w,
+        flat_mut(&mut force[2..n - 2]),
+    );
+}
+
+wide! {
+    /// The force on all nodes but two at each end, the deformation made block by block.
+    fn in_blocks(x: &[f64], center: DVec2, rest: &[f64], w: [f64; 3], force: &mut [f64]) {
+        let mut centers = [[0.0; 2]; REACH];
+        centers[..REACH.min(x.len() / 2)].fill([center.x, center.y]);
+        let mut buffer = [0.0; 2 * REACH];
+        for (k, block) in force.chunks_mut(2 * BLOCK).enumerate() {
+            let from = 2 * k * BLOCK;
+            let m = block.len() + 8;
+            let (x, rest) = (&x[from..from + m], &rest[from..from + m]);
+            let (centers, e) = (&centers.as_flattened()[..m], &mut buffer[..m]);
+            for k in 0..m {
+                e[k] = x[k] - centers[k] - rest[k];
+            }
+            five_points(e, w, block);
+        }
+    }
 }
 
 /// The second difference at a node that has both neighbours.
@@ -133,6 +236,18 @@ struct Weights<A, B, C> {
     w0: A,
     w1: B,
     w2: C,
+}
+
+impl Weights<(), (), ()> {
+    fn uniform(
+        [w0, w1, w2]: [f64; 3],
+    ) -> Weights<impl Fn(usize) -> f64, impl Fn(usize) -> f64, impl Fn(usize) -> f64> {
+        Weights {
+            w0: move |_| w0,
+            w1: move |_| w1,
+            w2: move |_| w2,
+        }
+    }
 }
 
 impl<A: Fn(usize) -> f64, B: Fn(usize) -> f64, C: Fn(usize) -> f64> Weights<A, B, C> {

@@ -82,7 +82,7 @@ pub use damping::{InternalDamping, critical_damping, greatest_stiffness, local_s
 pub use energy::{ElasticEnergy, elastic_energy};
 pub use error::ElasticError;
 pub use fit::BestFit;
-pub use force::elastic_force;
+pub use force::{body_force, elastic_force};
 pub use hold::Hold;
 pub use kernel::Kernel;
 pub use material::Material;

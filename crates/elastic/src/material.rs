@@ -55,6 +55,16 @@ impl Material {
         self.tether.is_uniform() && self.tension.is_uniform() && self.rigidity.is_uniform()
     }
 
+    /// ω₀, ω₁, ω₂ where all three are the same everywhere.
+    pub(crate) const fn uniform_densities(&self) -> Option<[f64; 3]> {
+        match (&self.tether, &self.tension, &self.rigidity) {
+            (Profile::Uniform(w0), Profile::Uniform(w1), Profile::Uniform(w2)) => {
+                Some([*w0, *w1, *w2])
+            }
+            _ => None,
+        }
+    }
+
     /// A corner at node `i` of `n`: no rigidity there, so a kink costs nothing.
     ///
     /// Report §3.4.1: ω₂(s₀) = 0 permits a tangent discontinuity.

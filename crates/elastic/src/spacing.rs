@@ -47,24 +47,10 @@ pub fn center(nodes: &[DVec2], mass: Option<&[f64]>) -> DVec2 {
         return DVec2::ZERO;
     }
     let Some(mass) = mass else {
-        return total(nodes) / nodes.len() as f64;
+        return lanes::total(nodes) / nodes.len() as f64;
     };
     debug_assert_eq!(nodes.len(), mass.len(), "one mass a node");
     nodes.iter().zip(mass).map(|(&v, &m)| m * v).sum::<DVec2>() / mass.iter().sum::<f64>()
-}
-
-/// The sum in eight parts, each waiting only for itself; the same order on every machine.
-fn total(nodes: &[DVec2]) -> DVec2 {
-    let (eights, rest) = nodes.as_chunks::<8>();
-    let mut sums = [DVec2::ZERO; 8];
-    for eight in eights {
-        for (sum, node) in sums.iter_mut().zip(eight) {
-            *sum += *node;
-        }
-    }
-    let [a, b, c, d, e, f, g, h] = sums;
-    let whole = ((a + b) + (c + d)) + ((e + f) + (g + h));
-    rest.iter().fold(whole, |sum, node| sum + *node)
 }
 
 /// Refuses nodes that are no curve: too few, not finite, farther out than 1e150, or all in one place.

@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::contact::{Contacts, Moment, Pace};
 use crate::solver::Solver;
 use crate::stepper::{self, Clock, Mass};
-use crate::{Fault, SchemeError, State, Stepper, System, four};
+use crate::{Fault, SchemeError, State, Stepper, System, each};
 
 /// How often [`Rule::Backward`] asks again for the external force at the step's end.
 const ROUNDS: usize = 12;
@@ -87,9 +87,7 @@ impl Euler {
 
     /// Solve with the external force in `force`, and leave the increment there.
     fn increment(&mut self) {
-        for (force, base) in self.force.iter_mut().zip(&self.base) {
-            *force += base;
-        }
+        each::onto(&self.base, &mut self.force, |base, force| force + base);
         self.solver.solve(&mut self.force);
     }
 
@@ -97,25 +95,17 @@ impl Euler {
     fn place(&mut self, x: &[DVec2]) -> bool {
         let rate = 1.0 / self.clock.dt;
         let to = [&mut self.next_x[..], &mut self.next_v[..]];
-        four::two_to_two([x, &self.force], to, |x, step| {
-            let (mut place, mut speed) = ([0.0; 8], [0.0; 8]);
-            for k in 0..8 {
-                place[k] = x[k] + step[k];
-                speed[k] = step[k] * rate;
-            }
-            (place, speed)
-        })
+        each::two_to_two([x, &self.force], to, move |x, step| (x + step, step * rate))
     }
 
     /// Inertia joins the forces.
     fn carry(&mut self, system: &dyn System, v: &[DVec2]) {
         if self.rule != Rule::GradientFlow {
             let rate = 1.0 / self.clock.dt;
-            let n = v.len();
-            let (mass, force) = (&system.mass()[..n], &mut self.force[..n]);
-            for i in 0..n {
-                force[i] += (mass[i] * rate) * v[i];
-            }
+            let mass = self.solver.masses(system);
+            each::weighted_onto(mass, v, &mut self.force, move |mass, v, force| {
+                force + (mass * rate) * v
+            });
         }
         stepper::release(system.held(), &mut self.force);
     }

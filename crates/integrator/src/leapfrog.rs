@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::contact::{Contacts, Moment, Pace};
 use crate::stepper::{self, Clock, Mass};
-use crate::{Fault, SchemeError, Start, State, Stepper, System, four};
+use crate::{Fault, SchemeError, Start, State, Stepper, System, each};
 
 /// Leapfrog with centred damping, in increments.
 ///
@@ -107,13 +107,9 @@ impl Leapfrog {
         let (v, force, coefficients) = (&v[..n], &self.force[..n], &self.coefficients[..n]);
         let (half, next) = (&mut self.half[..n], &mut self.next[..n]);
         let finite = if let Some(c) = self.common {
-            four::three_to_two([x, v, force], [&mut *next, half], |x, v, force| {
-                let (mut place, mut speed) = ([0.0; 8], [0.0; 8]);
-                for k in 0..8 {
-                    speed[k] = c.keep * v[k] + c.kick * force[k];
-                    place[k] = x[k] + dt * speed[k];
-                }
-                (place, speed)
+            each::three_to_two([x, v, force], [&mut *next, half], move |x, v, force| {
+                let speed = c.keep * v + c.kick * force;
+                (x + dt * speed, speed)
             })
         } else {
             let mut finite = true;
@@ -135,24 +131,17 @@ impl Leapfrog {
         }
     }
 
-    /// From the velocity in `half` to the one at the end of the step, in `v`.
-    fn arrive(&self, v: &mut [DVec2]) {
-        let n = v.len();
-        let (half, force) = (&self.half[..n], &self.force[..n]);
-        let coefficients = &self.coefficients[..n];
+    /// From the velocity in `half` to the one at the end of the step, in its place.
+    fn arrive(&mut self) {
+        let (half, force) = (&mut self.half, &self.force);
         if let Some(c) = self.common {
-            four::two_into([half, force], v, |half, force, _| {
-                let mut speed = [0.0; 8];
-                for k in 0..8 {
-                    speed[k] = c.settle * (half[k] + c.kick * force[k]);
-                }
-                speed
+            each::onto(force, half, move |force, half| {
+                c.settle * (half + c.kick * force)
             });
             return;
         }
-        for i in 0..n {
-            let c = coefficients[i];
-            v[i] = c.settle * (half[i] + c.kick * force[i]);
+        for ((v, &force), c) in half.iter_mut().zip(force).zip(&self.coefficients) {
+            *v = c.settle * (*v + c.kick * force);
         }
     }
 
@@ -209,12 +198,19 @@ impl Stepper for Leapfrog {
         self.ready = false;
         stepper::force(system, t, next, half, &mut self.force)?;
         self.ready = true;
-        self.arrive(&mut state.v);
         if touched {
+            // what a touch left a node with stays as it is: kept where the old velocity is not needed any more
             for touch in &self.contacts.touches {
                 state.v[touch.node] = self.half[touch.node];
             }
         }
+        self.arrive();
+        if touched {
+            for touch in &self.contacts.touches {
+                self.half[touch.node] = state.v[touch.node];
+            }
+        }
+        std::mem::swap(&mut state.v, &mut self.half);
         std::mem::swap(&mut state.x, &mut self.next);
         self.clock.tick(state);
         Ok(())

@@ -30,10 +30,11 @@ mod batch;
 mod collocation;
 mod contact;
 mod dormand_prince;
+mod each;
+
 mod error;
 mod euler;
 mod exact;
-mod four;
 mod leapfrog;
 mod limits;
 mod linear;

@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::contact::{Contacts, Moment, Pace};
 use crate::solver::Solver;
 use crate::stepper::{self, Clock, Mass};
-use crate::{Fault, SchemeError, State, Stepper, System, four};
+use crate::{Fault, SchemeError, State, Stepper, System, each};
 
 /// Generalized-α: Newmark's method with as much damping of the highest frequencies as is asked for.
 ///
@@ -273,36 +273,22 @@ impl Newmark {
     /// The same step at another's time `t`, which the other counts.
     fn take(&mut self, system: &mut dyn System, t: f64, state: &mut State) -> Result<(), Fault> {
         let dt = self.clock.dt;
-        let n = state.len();
         let (x, v) = (&mut self.next_x, &mut self.next_v);
         v.copy_from_slice(&state.v);
         stepper::release(system.held(), v);
-        four::two_into([&state.x, v], x, |x, v, mut middle| {
-            for k in 0..8 {
-                middle[k] = x[k] + 0.5 * dt * v[k];
-            }
-            middle
-        });
+        each::two_into([&state.x, v], x, move |x, v| x + 0.5 * dt * v);
         system.elastic(&state.x, &mut self.force);
         system.external(t + 0.5 * dt, x, v, &mut self.force)?;
-        {
-            let (mass, rate) = (&system.mass()[..n], 4.0 / dt);
-            let (force, v) = (&mut self.force[..n], &v[..n]);
-            for i in 0..n {
-                force[i] = 2.0 * force[i] + (rate * mass[i]) * v[i];
-            }
-        }
+        let (mass, rate) = (self.solver.masses(system), 4.0 / dt);
+        each::weighted_onto(mass, v, &mut self.force, move |mass, v, force| {
+            2.0 * force + (rate * mass) * v
+        });
         stepper::release(system.held(), &mut self.force);
         self.solver.solve(&mut self.force);
         let rate = 2.0 / dt;
         let to = [&mut x[..], &mut self.late[..]];
-        let finite = four::three_to_two([&state.x, &self.force, v], to, |x, step, v| {
-            let (mut place, mut speed) = ([0.0; 8], [0.0; 8]);
-            for k in 0..8 {
-                place[k] = x[k] + step[k];
-                speed[k] = rate * step[k] - v[k];
-            }
-            (place, speed)
+        let finite = each::three_to_two([&state.x, &self.force, v], to, move |x, step, v| {
+            (x + step, rate * step - v)
         });
         if !finite {
             stepper::finite(x)?;

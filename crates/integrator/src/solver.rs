@@ -8,7 +8,7 @@ use banded::{Operator, OperatorFactor};
 use glam::DVec2;
 
 use crate::stepper::{self, Mass};
-use crate::{Fault, SchemeError, System, Touch};
+use crate::{Fault, SchemeError, System, Touch, each};
 
 /// How much stiffer than its own row of `S` a node in contact is made.
 const FIRM: f64 = 1e4;
@@ -26,6 +26,8 @@ pub(crate) struct Solver {
     matrix: Operator,
     factor: OperatorFactor,
     diagonal: Vec<f64>,
+    /// The mass all nodes have, if it is the same.
+    mass: Option<f64>,
     /// Which nodes were in contact when `firm` was made.
     touching: Vec<bool>,
     pushed: Vec<bool>,
@@ -52,6 +54,7 @@ impl Solver {
             matrix,
             factor,
             diagonal,
+            mass: each::common(system.mass()),
             touching: vec![false; n],
             pushed: vec![false; n],
             firm: None,
@@ -80,7 +83,13 @@ impl Solver {
         self.matrix = system.stiffness().shifted(1.0, &self.diagonal);
         self.factor = self.matrix.factor().map_err(|_| stepper::unsolvable(x))?;
         self.firm = None;
+        self.mass = each::common(system.mass());
         Ok(())
+    }
+
+    /// The mass of each node, and the one they share, if they do.
+    pub(crate) fn masses<'a>(&self, system: &'a dyn System) -> (&'a [f64], Option<f64>) {
+        (system.mass(), self.mass)
     }
 
     /// `S`.

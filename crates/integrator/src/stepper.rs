@@ -120,6 +120,10 @@ pub(crate) fn external(
 
 /// Zero what held nodes got.
 pub(crate) fn release(held: &[bool], values: &mut [DVec2]) {
+    // mostly none is: to find that out without an early way out costs next to nothing
+    if !held.iter().fold(false, |any, &held| any | held) {
+        return;
+    }
     for (value, &held) in values.iter_mut().zip(held) {
         if held {
             *value = DVec2::ZERO;
@@ -129,12 +133,7 @@ pub(crate) fn release(held: &[bool], values: &mut [DVec2]) {
 
 /// Refuse positions that are not finite any more.
 pub(crate) fn finite(x: &[DVec2]) -> Result<(), Fault> {
-    let mut all = true;
-    for p in x {
-        // no early way out: the loop is one comparison a number this way
-        all &= p.x.is_finite() & p.y.is_finite();
-    }
-    if all {
+    if lanes::finite(x) {
         return Ok(());
     }
     let node = x.iter().position(|p| !p.is_finite()).unwrap_or(0);

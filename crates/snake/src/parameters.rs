@@ -47,7 +47,8 @@ type Parameters = (Material, Vec<f64>, Vec<f64>);
 ///
 /// Without reaction (the report's frame) the force is `−K P x`, which is not symmetric; what is
 /// returned then is its symmetric part up to rank two, `K − ½ (w kᵀ + k wᵀ)`. The implicit schemes
-/// need the exact one and refuse such a frame where the difference matters.
+/// need the exact one and refuse such a frame where the difference matters. Where k = s w both are
+/// `K − s w wᵀ`.
 pub(crate) fn operator(
     body: &Body,
     material: &Material,
@@ -73,6 +74,12 @@ pub(crate) fn operator(
             .map(|(&v, &h)| if h { 0.0 } else { v })
             .collect()
     };
+    let along = |(&k, &w): (&f64, &f64)| (k - total * w).abs() <= 1e-13 * scale;
+    if row_sums.iter().zip(weights).all(along) {
+        // k = s w, as where tether and mass are the same everywhere: one column is enough
+        let one = Operator::new(masked, vec![free(weights)], vec![-total]);
+        return one.map_err(|error| SnakeError::Elastic(error.into()));
+    }
     let middle = if body.frame.reaction {
         vec![total, -1.0, -1.0, 0.0]
     } else {

@@ -347,16 +347,10 @@ impl System for Snake {
     }
 
     fn elastic(&mut self, x: &[DVec2], force: &mut [DVec2]) {
-        let mut e = std::mem::take(&mut self.deformation);
-        self.deformation_from(x, None, &mut e);
-        elastic::elastic_force(
-            &e,
-            self.body.topology,
-            &self.material,
-            self.body.spacing,
-            force,
-        );
-        self.deformation = e;
+        let center = self.center(x);
+        let curve = (self.body.topology, &self.material, self.body.spacing);
+        let e = &mut self.deformation;
+        elastic::body_force([x, &self.body.rest], center, curve, e, force);
         if self.pushes {
             let total: DVec2 = force.iter().copied().sum();
             for (f, &w) in force.iter_mut().zip(&self.weights) {

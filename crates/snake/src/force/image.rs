@@ -6,6 +6,7 @@ use std::sync::Arc;
 use field::{ForceField, Interpolation};
 use glam::{DMat2, DVec2};
 use integrator::{Fault, FaultKind};
+use lanes::{all_finite, flat, flat_mut, wide};
 
 use super::{Curve, Force, Pull, nowhere, push_back};
 
@@ -20,6 +21,20 @@ pub enum Sampling {
     /// The report's rule: along one axis only, from the rounded pixel, and a fault off the picture
     /// (D51, D54).
     OneAxis,
+}
+
+/// Points read at a time: their forces are added while they are in the first cache.
+const BLOCK: usize = 512;
+
+wide! {
+    /// Adds `sampled` to `force`; true if all of it is finite.
+    fn join(sampled: &[f64], force: &mut [f64]) -> bool {
+        let sampled = &sampled[..force.len()];
+        for k in 0..force.len() {
+            force[k] += sampled[k];
+        }
+        all_finite(sampled)
+    }
 }
 
 /// The force field of a picture, felt by the nodes.
@@ -77,16 +92,17 @@ impl Force for ImageForce {
         let x = curve.x;
         match self.sampling {
             Sampling::Bilinear | Sampling::Bicubic => {
-                self.scratch.resize(x.len(), DVec2::ZERO);
-                self.field.sample_into(x, self.rule(), &mut self.scratch);
-                // a place that is none has a force that is none; found by the sum, once
-                if !self.scratch.iter().sum::<DVec2>().is_finite()
-                    && let Some(fault) = nowhere(x)
-                {
-                    return Err(fault);
+                let (rule, sampled) = (self.rule(), &mut self.scratch);
+                sampled.resize(BLOCK, DVec2::ZERO);
+                let mut finite = true;
+                for (x, force) in x.chunks(BLOCK).zip(force.chunks_mut(BLOCK)) {
+                    let sampled = &mut sampled[..x.len()];
+                    self.field.sample_into(x, rule, sampled);
+                    finite &= join(flat(sampled), flat_mut(force));
                 }
-                for (f, &sampled) in force.iter_mut().zip(&self.scratch) {
-                    *f += sampled;
+                // a place that is none has a force that is none
+                if !finite && let Some(fault) = nowhere(x) {
+                    return Err(fault);
                 }
             }
             Sampling::OneAxis => {
