@@ -160,6 +160,10 @@ pub(crate) struct Fit {
     /// Which edges attract, going outwards across the contour.
     #[arg(long, value_enum, default_value_t = Polarity::Either)]
     pub polarity: Polarity,
+    /// Whether the edge force is computed only where the contour goes, or for the whole picture in double precision;
+    /// `auto` is lazy wherever that is exact enough.
+    #[arg(long, value_enum, default_value_t = Computed::Auto)]
+    pub computed: Computed,
     /// Pressure inside the contour, in pulls of an edge: it grows, or shrinks below 0; 0.1 is much.
     #[arg(
         long,
@@ -208,4 +212,15 @@ pub(crate) enum Polarity {
     DarkToBright,
     /// Bright inside, dark outside.
     BrightToDark,
+}
+
+/// How the edge force is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Computed {
+    /// Lazy wherever that will do.
+    Auto,
+    /// Where the contour goes.
+    Lazy,
+    /// For the whole picture.
+    Whole,
 }

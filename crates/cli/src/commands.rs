@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use scene::field::{Polarity, Smoothing};
 use scene::integrator::Scheme;
 use scene::snake::{Certificate, Outcome};
-use scene::{Contour, Fields, ForceChoice, Picture, Record, Scene, SceneError};
+use scene::{Computing, Contour, Fields, ForceChoice, Picture, Record, Scene, SceneError};
 
 use crate::args;
 use crate::output::{Output, put, say};
@@ -89,6 +89,11 @@ pub(crate) fn fit(args: &args::Fit) -> Answer {
             args::Polarity::Either => Polarity::Either,
             args::Polarity::DarkToBright => Polarity::DarkToBright,
             args::Polarity::BrightToDark => Polarity::BrightToDark,
+        },
+        computing: match args.computed {
+            args::Computed::Auto => Computing::Auto,
+            args::Computed::Lazy => Computing::Lazy,
+            args::Computed::Whole => Computing::Whole,
         },
         balloon: args.balloon,
         dt: args.dt,

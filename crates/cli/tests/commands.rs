@@ -189,7 +189,7 @@ fn a_circle_drawn_off_a_disc_is_pulled_onto_its_border() {
         let seen = scene::Picture::decode(&seen).unwrap();
         assert_eq!(seen.size(), (96, 96));
         // orange on the border found, blue on the start, nothing of either in a corner
-        let colour = |x: u32, y: u32| seen.display.get_pixel(x, y).0;
+        let colour = |x: u32, y: u32| seen.display().get_pixel(x, y).0;
         let [r, _, b] = colour(73, 48);
         assert!(r > b, "{:?}", colour(73, 48));
         let [r, _, b] = colour(76, 49);

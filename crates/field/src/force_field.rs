@@ -1,7 +1,7 @@
 //! A force at every pixel center, and what it is in between.
 
 use crate::error::{FieldError, OutsideField};
-use crate::fast::TileSource;
+use crate::fast::{TileSource, tile_by_tile};
 use crate::grid::Grid;
 use crate::sample::{self, Flat, Interpolation};
 use glam::{DMat2, DVec2};
@@ -188,7 +188,10 @@ impl ForceField {
         match &self.forces {
             Forces::Double(f) => sample::value(|y, x| f[[y, x]].to_array(), dim, p, rule),
             Forces::Single(f) => sample::value(|y, x| widened(f[[y, x]]).to_array(), dim, p, rule),
-            Forces::Tiles { .. } => sample::value(|y, x| self.force(y, x).to_array(), dim, p, rule),
+            Forces::Tiles { tiles, factor } => {
+                let force = |y, x| widened(tiles.force(y, x)).to_array();
+                sample::value(force, dim, p, rule) * *factor
+            }
         }
     }
 
@@ -204,8 +207,10 @@ impl ForceField {
             Forces::Single(f) => {
                 sample::value_and_slope(|y, x| widened(f[[y, x]]).to_array(), dim, p, rule)
             }
-            Forces::Tiles { .. } => {
-                sample::value_and_slope(|y, x| self.force(y, x).to_array(), dim, p, rule)
+            Forces::Tiles { tiles, factor } => {
+                let force = |y, x| widened(tiles.force(y, x)).to_array();
+                let (value, slope) = sample::value_and_slope(force, dim, p, rule);
+                (value * *factor, slope * *factor)
             }
         }
     }
@@ -226,19 +231,14 @@ impl ForceField {
                 }
             }
             Forces::Tiles { tiles, factor } => {
-                let (height, width) = tiles.dim();
-                if rule == Interpolation::Bilinear && height > 1 && width > 1 {
-                    sample::sample_cells(
-                        |row, column| tiles.cell(row, column).map(|f| widened(f) * *factor),
-                        (height, width),
-                        points,
-                        forces,
-                    );
-                } else {
-                    for (&p, force) in points.iter().zip(forces) {
-                        *force = self.sample(p, rule);
+                let n = points.len().min(forces.len());
+                tile_by_tile(&**tiles, &points[..n], |tile, run| {
+                    let forces = &mut forces[run.clone()];
+                    sample::sample_flat(tile, &points[run], rule, forces);
+                    for force in forces {
+                        *force *= *factor;
                     }
-                }
+                });
             }
         }
     }
@@ -262,10 +262,16 @@ impl ForceField {
                     sample::sample_flat_with_slope(field, points, rule, forces, slopes);
                 }
             }
-            Forces::Tiles { .. } => {
-                for ((&p, force), slope) in points.iter().zip(forces).zip(slopes) {
-                    (*force, *slope) = self.sample_with_slope(p, rule);
-                }
+            Forces::Tiles { tiles, factor } => {
+                let n = points.len().min(forces.len()).min(slopes.len());
+                tile_by_tile(&**tiles, &points[..n], |tile, run| {
+                    let (forces, slopes) = (&mut forces[run.clone()], &mut slopes[run.clone()]);
+                    sample::sample_flat_with_slope(tile, &points[run], rule, forces, slopes);
+                    for (force, slope) in forces.iter_mut().zip(slopes) {
+                        *force *= *factor;
+                        *slope *= *factor;
+                    }
+                });
             }
         }
     }

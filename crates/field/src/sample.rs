@@ -59,21 +59,6 @@ pub(crate) fn value(
     DVec2::from_array(value)
 }
 
-/// [`value`] by the bilinear rule at many points, from whole cells of a field of two pixels or more each way.
-pub(crate) fn sample_cells(
-    cell: impl Fn(usize, usize) -> [DVec2; 4],
-    (height, width): (usize, usize),
-    points: &[DVec2],
-    forces: &mut [DVec2],
-) {
-    for (p, force) in points.iter().zip(forces) {
-        let (x, y) = (Axis::new(p.x, width), Axis::new(p.y, height));
-        let [a, b, c, d] = cell(y.index[0], x.index[0]);
-        let rows = [[a.x, a.y, b.x, b.y], [c.x, c.y, d.x, d.y]];
-        *force = DVec2::from_array(bilinear(rows, x.t, y.t));
-    }
-}
-
 /// The force at a point and its slope: the columns are ∂F/∂x and ∂F/∂y.
 #[inline]
 pub(crate) fn value_and_slope(

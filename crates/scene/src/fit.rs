@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use elastic::{ElasticError, Material, Parameter, Topology};
-use field::{EdgeForce, FieldError, ForceField, Polarity, Smoothing};
+use field::{EdgeForce, ForceField, Polarity, Smoothing};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use snake::{
@@ -15,7 +15,7 @@ use crate::build::{outside, smoothing};
 use crate::file::ForceText;
 use crate::limits::MOST_NODES;
 use crate::scene::{Plan, Recording, Scene, View};
-use crate::{Contour, ForceChoice, Picture, SceneError};
+use crate::{Computing, Contour, ForceChoice, Picture, SceneError};
 
 /// How to fit a contour to a picture. [`Fit::default`] suits outlines of some tens to thousands of
 /// pixels drawn within about ten pixels of an edge.
@@ -42,6 +42,8 @@ pub struct Fit {
     pub forces: Vec<ForceChoice>,
     /// Which edges attract, going outwards: of that edge force, and of every chosen one that does not say.
     pub polarity: Polarity,
+    /// Whether the edge force is computed where the curve goes, or as a whole.
+    pub computing: Computing,
     /// Pressure inside the curve, in pulls of that edge force at strength 1: above 0 it grows, below 0 it shrinks.
     pub balloon: f64,
     /// The step; by default half of the largest stable one.
@@ -63,6 +65,7 @@ impl Default for Fit {
             strength: 1.0,
             forces: Vec::new(),
             polarity: Polarity::Either,
+            computing: Computing::Auto,
             balloon: 0.0,
             dt: None,
             steps: 20_000,
@@ -118,7 +121,7 @@ impl Fit {
             let message = format!("must be finite and above 0, got {}", self.strength);
             return Err(SceneError::key("--strength", message));
         }
-        let sight = Sight::of(&picture)?;
+        let sight = Sight::of(&picture)?.for_fit(self.computing);
         let notes = sight.note().into_iter().collect();
         let topology = if closed {
             Topology::Closed
@@ -195,7 +198,8 @@ impl Fit {
                 world = world.with_image(Arc::clone(&usual), Sampling::Bilinear);
                 field = Some(usual);
             } else {
-                smoothing("--sigma", Smoothing::Gaussian(self.sigma), sight.picture)?;
+                let size = sight.picture.size();
+                smoothing("--sigma", Smoothing::Gaussian(self.sigma), size)?;
                 // that edge force at another σ has another pull
                 let strength = self.strength * 10.0 / (self.sigma * self.sigma);
                 chosen.push(ForceChoice::edge(self.sigma, strength));
@@ -220,15 +224,12 @@ impl Fit {
 
     /// The field of the usual edge force.
     fn usual_field(&self, sight: &Sight<'_>) -> Result<ForceField, SceneError> {
-        let picture = sight.picture;
         let usual = EdgeForce::as_strong_as_the_report().gain;
         let rule = EdgeForce {
-            smoothing: smoothing("--sigma", Smoothing::Gaussian(self.sigma), picture)?,
+            smoothing: Smoothing::Gaussian(self.sigma),
             gain: self.strength * usual * 120.0 / sight.contrast(),
         };
-        let refuse = |e: FieldError| SceneError::key("--sigma", e);
-        let masked = picture.masked(&picture.levels).map_err(refuse)?;
-        masked.edge_force(&rule).map_err(refuse)
+        sight.edge_field(rule, ["--sigma", "--computed"])
     }
 }
 

@@ -37,6 +37,7 @@ mod scene;
 mod toml_error;
 mod write;
 
+pub use build::Computing;
 pub use catalogue::{APPLE_DISTURBING, SCENES, contour, headline};
 pub use company::Company;
 pub use contour::Contour;

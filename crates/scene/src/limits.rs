@@ -14,9 +14,15 @@ pub(crate) const MOST_NODES: usize = 1 << 20;
 /// far below where the square of a length overflows.
 pub(crate) const FARTHEST: f64 = 1e9;
 
-/// Pixels a picture may have, 11585 × 11585: all stages of a force together hold about a hundred
-/// bytes a pixel, so some 13 GB.
-pub(crate) const MOST_PIXELS: u64 = 1 << 27;
+/// Pixels a picture of 8 or 16 bits may have, 23170 × 23170: kept as they came, 1 to 3 bytes each.
+pub(crate) const MOST_PIXELS: u64 = 1 << 29;
+
+/// Pixels a picture may have to be worked on as a whole, or with floats or deep colors, 11585 × 11585: all stages of a force
+/// together hold about a hundred bytes a pixel, so some 13 GB.
+pub(crate) const MOST_WHOLE: u64 = 1 << 27;
+
+/// Pixels up to which a scene's field is made as a whole, in doubles, unless it says otherwise: 2048 × 2048.
+pub(crate) const USUALLY_WHOLE: u64 = 1 << 22;
 
 /// Bytes a pixel may take in a file or a decoder: four channels of floats.
 pub(crate) const MOST_PIXEL_BYTES: u64 = 16;

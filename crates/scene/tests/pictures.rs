@@ -41,11 +41,11 @@ fn encoded(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
 fn off(what: &str, bytes: &[u8], level: impl Fn(u32, u32) -> f64) -> f64 {
     let picture = Picture::decode(bytes).unwrap_or_else(|error| unreachable!("{what}: {error}"));
     assert_eq!(picture.size(), (WIDTH as usize, HEIGHT as usize), "{what}");
-    assert_eq!(picture.display.dimensions(), (WIDTH, HEIGHT), "{what}");
+    assert_eq!(picture.display().dimensions(), (WIDTH, HEIGHT), "{what}");
     let mut worst = 0.0_f64;
     for y in 0..HEIGHT {
         for x in 0..WIDTH {
-            worst = worst.max((picture.levels[[y as usize, x as usize]] - level(x, y)).abs());
+            worst = worst.max((picture.levels()[[y as usize, x as usize]] - level(x, y)).abs());
         }
     }
     worst
@@ -250,7 +250,7 @@ fn a_drawn_disc_has_its_area_and_its_noise() {
     let picture = |noise, seed| {
         let scene =
             scene::Scene::parse("a", &text(noise, seed), std::path::Path::new(".")).unwrap();
-        scene.picture.unwrap().levels.clone()
+        scene.picture.unwrap().levels().clone()
     };
     let plain = picture(0.0, 0);
     let area: f64 = plain.iter().map(|v| (v - 60.0) / 140.0).sum();

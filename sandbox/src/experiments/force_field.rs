@@ -90,7 +90,7 @@ fn run() -> Result<Record, SandboxError> {
     let contour = scene::contour("apple-truth")
         .map_err(SandboxError::refused(ID))?
         .points;
-    let image = &picture.levels;
+    let image = picture.levels();
     let report = report_force(image, REPORT_PASSES, REPORT_SCALE, REPORT_GAIN)
         .map_err(SandboxError::refused(ID))?;
     let corrected = edge_force(image, &EdgeForce::as_strong_as_the_report())

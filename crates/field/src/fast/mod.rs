@@ -16,7 +16,7 @@ mod tile;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use lazy::TileSource;
+pub(crate) use lazy::{TileSource, tile_by_tile};
 pub use pixel::Pixel;
 pub use plan::Recipe;
 
@@ -25,7 +25,7 @@ use crate::force_field::ForceField;
 use crate::grid::Grid;
 use crate::smooth::wide::Wide;
 use crate::{EdgeForce, Smoothing};
-use ndarray::{Array2, ArrayView2};
+use ndarray::{ArcArray2, Array2, ArrayView2};
 use plan::Plan;
 use std::sync::{Arc, Mutex};
 use tile::{Job, Place, Scratch, TILE};
@@ -179,14 +179,19 @@ fn compute<P: Pixel>(
 /// A force field that is computed where it is asked for, tile by tile, and remembered.
 ///
 /// Sampling it gives the same bytes as the field of [`fast_force`], but only tiles of 124 × 64 pixels around the
-/// points asked for are ever computed: following one cell in a huge picture costs the cell, not the
-/// picture. May be sampled from several threads. Pixels are not looked at before they are needed; forces within
+/// points asked for are ever computed (121 × 61 apart: they overlap by what bicubic sampling looks at): following one cell in a huge
+/// picture costs the cell, not the picture. May be sampled from several threads. The picture is an `Array2`, or shared as an
+/// [`ArcArray2`](ndarray::ArcArray2) and then not copied. Pixels are not looked at before they are needed; forces within
 /// reach of a pixel that is NaN, infinite or too large are NaN.
 ///
 /// # Errors
 /// No pixels, numbers [`Recipe::validate`] refuses, and a filter wider than the tiles hold (σ ≈ 18 px).
-pub fn lazy_force<P: Pixel>(image: Array2<P>, recipe: &Recipe) -> Result<ForceField, FieldError> {
+pub fn lazy_force<P: Pixel>(
+    image: impl Into<ArcArray2<P>>,
+    recipe: &Recipe,
+) -> Result<ForceField, FieldError> {
     recipe.validate()?;
+    let image = image.into();
     let (height, width) = image.dim();
     if height == 0 || width == 0 {
         return Err(FieldError::Empty { width, height });

@@ -1,6 +1,6 @@
 use super::*;
-use crate::{edge_force, report_force};
-use glam::DVec2;
+use crate::{Interpolation, edge_force, report_force};
+use glam::{DMat2, DVec2};
 use ndarray::s;
 use proptest::prelude::*;
 
@@ -338,6 +338,32 @@ fn a_lazy_field_is_the_whole_field_where_it_is_looked_at_and_nothing_elsewhere()
         lazy_force(image, &wide),
         Err(FieldError::TooMuch { .. })
     ));
+}
+
+#[test]
+fn points_across_many_tiles_have_the_digits_of_the_whole_field_by_both_rules() {
+    let image = noise(200, 300);
+    let whole = fast_force(image.view(), &EDGE, 1).unwrap();
+    // to and fro over the borders of tiles and of the picture
+    let points: Vec<DVec2> = (0..700_u32)
+        .map(|i| {
+            let (a, b) = (f64::from(i * 37 % 613), f64::from(i * 61 % 409));
+            DVec2::new(a * 0.5 - 3.0, b * 0.5 - 2.0)
+        })
+        .collect();
+    let n = points.len();
+    for rule in [Interpolation::Bilinear, Interpolation::Bicubic] {
+        let lazy = lazy_force(image.to_shared(), &EDGE).unwrap();
+        let [mut a, mut b] = [vec![DVec2::ZERO; n], vec![DVec2::ONE; n]];
+        let [mut c, mut d] = [vec![DMat2::ZERO; n], vec![DMat2::IDENTITY; n]];
+        lazy.sample_into(&points, rule, &mut a);
+        whole.sample_into(&points, rule, &mut b);
+        assert_eq!(a, b);
+        lazy.sample_with_slope_into(&points, rule, &mut a, &mut c);
+        whole.sample_with_slope_into(&points, rule, &mut b, &mut d);
+        assert_eq!(a, b);
+        assert_eq!(c, d);
+    }
 }
 
 #[test]

@@ -6,6 +6,17 @@ use glam::DVec2;
 /// Points whose cells are found together: the arrays stay in the first cache.
 pub(super) const GROUP: usize = 64;
 
+/// Where the forces of a field, or of a window of it, lie in memory.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    /// The last pixel along x and along y.
+    pub(super) last: [f64; 2],
+    /// From one row to the next.
+    pub(super) stride: f64,
+    /// 2⁵² less what lies before the first force.
+    pub(super) whole: f64,
+}
+
 /// Cells of a group of points.
 pub(super) struct Group {
     /// Where in the field a neighbourhood begins; `usize::MAX` if the field does not hold all of it.
@@ -31,11 +42,10 @@ impl Group {
     pub(super) fn find<const CUBIC: bool, const SLOPE: bool>(
         &mut self,
         points: &[DVec2],
-        (height, width): (usize, usize),
+        place: Place,
     ) -> bool {
-        let (last_x, last_y) = ((width - 1) as f64, (height - 1) as f64);
+        let ([last_x, last_y], stride, whole) = (place.last, place.stride, place.whole);
         let (most_x, most_y) = (last_x - 1.0, last_y - 1.0);
-        let stride = width as f64;
         let [tx, ty] = &mut self.t;
         let [slide_x, slide_y] = &mut self.slide;
         let mut all_inner = true;
@@ -46,7 +56,7 @@ impl Group {
             if SLOPE {
                 (slide_x[k], slide_y[k]) = (x.2, y.2);
             }
-            let place = |x: f64, y: f64| (y * stride + x + WHOLE).to_bits() ^ WHOLE.to_bits();
+            let place = |x: f64, y: f64| (y * stride + x + whole).to_bits() ^ WHOLE.to_bits();
             self.at[k] = if CUBIC {
                 let inner = |at: f64, most: f64| (at >= 1.0) & (at < most);
                 let inner = inner(x.0, most_x) & inner(y.0, most_y);

@@ -4,9 +4,9 @@
 //! a branch; then each point looks at two (or four) short runs of forces. The sums are those for a single
 //! point, operation by operation, so the digits are the same.
 
-use super::group::{GROUP, Group, Weights};
+use super::group::{GROUP, Group, Place, Weights};
 use super::weights::{
-    Run, Two, bicubic, bicubic_slope, bilinear, bilinear_slope, cubic, cubic_slope,
+    Run, Two, WHOLE, bicubic, bicubic_slope, bilinear, bilinear_slope, cubic, cubic_slope,
 };
 use super::{Interpolation, Pair, value, value_and_slope};
 use glam::{DMat2, DVec2};
@@ -63,23 +63,64 @@ fn widened<const N: usize>(numbers: &[f32]) -> [f64; N] {
     wide
 }
 
-/// Rows of forces that stand one after another.
+/// Rows of forces that stand one after another: a whole field, or a window of it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Flat<'a, F> {
     forces: &'a [F],
+    /// Rows and columns of the whole field.
     dim: (usize, usize),
+    /// Row and column of the first force.
+    first: (usize, usize),
+    /// From one row to the next.
+    stride: usize,
 }
 
 impl<'a, F: Kept> Flat<'a, F> {
     /// The forces of a grid whose rows stand one after another.
     pub(crate) fn new(forces: &'a Array2<F>) -> Option<Self> {
         let dim = forces.dim();
-        forces.as_slice().map(|forces| Self { forces, dim })
+        let whole = |forces| Self::window(forces, dim, (0, 0), dim.1);
+        forces.as_slice().map(whole)
+    }
+
+    /// Some rows and columns of a field of `dim`, from `first` on, `stride` in a row.
+    ///
+    /// Only points whose neighbourhoods lie in it may be asked for.
+    pub(crate) const fn window(
+        forces: &'a [F],
+        dim: (usize, usize),
+        first: (usize, usize),
+        stride: usize,
+    ) -> Self {
+        Self {
+            forces,
+            dim,
+            first,
+            stride,
+        }
+    }
+
+    /// Where its forces lie, for [`Group::find`].
+    fn place(self) -> Place {
+        let (height, width) = self.dim;
+        let stride = self.stride as f64;
+        let before = self.first.0 as f64 * stride + self.first.1 as f64;
+        Place {
+            last: [(width - 1) as f64, (height - 1) as f64],
+            stride,
+            whole: WHOLE - before,
+        }
+    }
+
+    /// The force at a pixel center that lies in it.
+    #[inline(always)]
+    pub(crate) fn kept(self, row: usize, column: usize) -> F {
+        self.forces[(row - self.first.0) * self.stride + column - self.first.1]
     }
 
     #[inline(always)]
     fn get(self, row: usize, column: usize) -> Pair {
-        self.forces[row * self.dim.1 + column].wide()
+        self.kept(row, column).wide()
     }
 }
 
@@ -236,12 +277,12 @@ fn sixteen<F: Kept>([a, b, c, d]: [&[F]; 4], at: usize) -> Option<[Run; 4]> {
 /// The field as seen from each of `N` rows, all of one length, so that one look at the length is enough.
 #[inline(always)]
 fn rows<'a, F, const N: usize>(field: Flat<'a, F>) -> [&'a [F]; N] {
-    let width = field.dim.1;
-    let n = field.forces.len().saturating_sub((N - 1) * width);
+    let stride = field.stride;
+    let n = field.forces.len().saturating_sub((N - 1) * stride);
     std::array::from_fn(|j| {
         field
             .forces
-            .get(j * width..j * width + n)
+            .get(j * stride..j * stride + n)
             .unwrap_or_default()
     })
 }
@@ -251,7 +292,7 @@ fn bilinear_values<F: Kept>(field: Flat<'_, F>, points: &[DVec2], forces: &mut [
     let mut group = Group::new();
     let rows = rows(field);
     for (points, forces) in points.chunks(GROUP).zip(forces.chunks_mut(GROUP)) {
-        group.find::<false, false>(points, field.dim);
+        group.find::<false, false>(points, field.place());
         let Group {
             at, t: [tx, ty], ..
         } = &group;
@@ -276,7 +317,7 @@ fn bilinear_slopes<F: Kept>(
     let rows = rows(field);
     let results = forces.chunks_mut(GROUP).zip(slopes.chunks_mut(GROUP));
     for (points, (forces, slopes)) in points.chunks(GROUP).zip(results) {
-        group.find::<false, true>(points, field.dim);
+        group.find::<false, true>(points, field.place());
         let Group {
             at,
             t: [tx, ty],
@@ -304,7 +345,7 @@ fn bicubic_values<S: Simd, F: Kept>(
     let [mut wx, mut wy] = [const { Weights::new() }; 2];
     let rows = rows(field);
     for (points, forces) in points.chunks(GROUP).zip(forces.chunks_mut(GROUP)) {
-        let all_inner = group.find::<true, false>(points, field.dim);
+        let all_inner = group.find::<true, false>(points, field.place());
         let Group {
             at, t: [tx, ty], ..
         } = &group;
@@ -339,7 +380,7 @@ fn bicubic_slopes<S: Simd, F: Kept>(
     let rows = rows(field);
     let results = forces.chunks_mut(GROUP).zip(slopes.chunks_mut(GROUP));
     for (points, (forces, slopes)) in points.chunks(GROUP).zip(results) {
-        let all_inner = group.find::<true, true>(points, field.dim);
+        let all_inner = group.find::<true, true>(points, field.place());
         let Group {
             at,
             t: [tx, ty],

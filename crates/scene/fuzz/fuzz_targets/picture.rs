@@ -10,7 +10,7 @@ fuzz_target!(|bytes: &[u8]| {
         Ok(picture) => {
             let (width, height) = picture.size();
             assert!(width >= 1 && height >= 1 && width * height <= 1 << 16);
-            assert!(picture.levels.iter().all(|level| level.is_finite()));
+            assert!(picture.levels().iter().all(|level| level.is_finite()));
         }
         Err(said) => assert!(!said.is_empty() && said.len() < 400, "{said}"),
     }

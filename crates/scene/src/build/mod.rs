@@ -2,6 +2,7 @@
 
 mod body;
 mod company;
+mod edge_field;
 pub(crate) mod force;
 pub(crate) mod number;
 mod plan;
@@ -14,6 +15,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use snake::{Snake, SnakeError};
 
+pub use edge_field::Computing;
 pub(crate) use plan::USUAL_TOLERANCE;
 pub(crate) use world::{outside, smoothing};
 

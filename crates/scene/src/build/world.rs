@@ -9,20 +9,29 @@ use integrator::State;
 use snake::{Acting, ImageForce, Sampling, SnakeError, Wall, WallLaw, World};
 
 use super::body::profile;
+use super::edge_field::{Computing, Wanted, edge_field};
 use super::force::{self, Sight};
 use super::{Rules, number};
-use crate::file::{BorderText, FieldText, ForceText, LawText, Rule, SceneText, WallText};
-use crate::limits::MOST_SMOOTHING;
+use crate::file::{
+    BorderText, ComputedText, FieldText, ForceText, LawText, Rule, SceneText, WallText,
+};
+use crate::limits::{MOST_SMOOTHING, MOST_WHOLE};
 use crate::{Picture, SceneError};
 
 /// Refuse a smoothing that would take minutes on a picture of this size, or that makes no sense.
 pub(crate) fn smoothing(
     key: &str,
     smoothing: Smoothing,
-    picture: &Picture,
+    (width, height): (usize, usize),
 ) -> Result<Smoothing, SceneError> {
     smoothing.validate().map_err(|e| SceneError::key(key, e))?;
-    let (width, height) = picture.size();
+    if (width * height) as u64 > MOST_WHOLE {
+        let message = format!(
+            "asks for work on all {width}×{height} pixels, of which there may be {MOST_WHOLE}; the plain edge force is \
+             found where it is needed (computed = \"lazy\"), without a mask and up to σ = 18"
+        );
+        return Err(SceneError::key(key, message));
+    }
     let pixels = (width * height) as f64;
     // a Gaussian is cut at 8.6 σ on both sides
     let (value, taps) = match smoothing {
@@ -41,8 +50,9 @@ pub(crate) fn smoothing(
 pub(super) fn force_field(
     f: &FieldText,
     rules: Rules,
-    picture: &Picture,
+    sight: &Sight<'_>,
 ) -> Result<ForceField, SceneError> {
+    let picture = sight.picture;
     let refuse = |error: FieldError| SceneError::key("field", error);
     let scale = |otherwise: f64| number::above_zero("field.scale", f.scale.unwrap_or(otherwise));
     let gain = |otherwise: f64| number::above_zero("field.gain", f.gain.unwrap_or(otherwise));
@@ -62,22 +72,29 @@ pub(super) fn force_field(
                 let message = "the report's field knows no mask; field = \"corrected\" would do";
                 return Err(SceneError::key("rules.field", message));
             }
-            smoothing("field.passes", binomial, picture)?;
+            if f.computed == Some(ComputedText::Lazy) {
+                let message = "the report's field is made as a whole; \"whole\" would do";
+                return Err(SceneError::key("field.computed", message));
+            }
+            smoothing("field.passes", binomial, picture.size())?;
             let (scale, gain) = (scale(field::REPORT_SCALE)?, gain(field::REPORT_GAIN)?);
-            field::report_force(&picture.levels, passes, scale, gain).map_err(refuse)
+            field::report_force(picture.levels(), passes, scale, gain).map_err(refuse)
         }
         Rule::Corrected => {
             // so that an edge pulls as hard as under the report's rules
             let usual = EdgeForce::as_strong_as_the_report().gain;
-            let smoothing = match f.sigma {
-                Some(sigma) => smoothing("field.sigma", Smoothing::Gaussian(sigma), picture)?,
-                None => smoothing("field.passes", binomial, picture)?,
+            let (key, smoothing) = match f.sigma {
+                Some(sigma) => ("field.sigma", Smoothing::Gaussian(sigma)),
+                None => ("field.passes", binomial),
             };
             let gain = gain(usual)? * scale(1.0)?;
-            let masked = picture.masked(&picture.levels).map_err(refuse)?;
-            masked
-                .edge_force(&EdgeForce { smoothing, gain })
-                .map_err(refuse)
+            let computing = f.computed.map(|computed| match computed {
+                ComputedText::Lazy => Computing::Lazy,
+                ComputedText::Whole => Computing::Whole,
+            });
+            let wanted = Wanted::of(computing, [key, "field.computed"]);
+            let rule = EdgeForce { smoothing, gain };
+            edge_field(picture, sight.true_contrast(), rule, &wanted)
         }
     }
 }
@@ -108,8 +125,8 @@ pub(super) fn world(
     let sight = picture.map(Sight::of).transpose()?;
     notes.extend(sight.as_ref().and_then(Sight::note));
     let mut usual = None;
-    if let (Some(picture), Some(f)) = (picture, usual_field(text)) {
-        let field = Arc::new(force_field(&f, rules, picture)?);
+    if let (Some(sight), Some(f)) = (&sight, usual_field(text)) {
+        let field = Arc::new(force_field(&f, rules, sight)?);
         let sampling = match rules.sampling {
             Rule::Report => Sampling::OneAxis,
             Rule::Corrected => Sampling::Bilinear,

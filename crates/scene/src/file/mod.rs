@@ -152,9 +152,18 @@ pub(crate) enum RegionText {
     Circle(CircleText),
 }
 
+/// Whether a field is made where a curve goes, or as a whole.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum ComputedText {
+    Lazy,
+    Whole,
+}
+
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct FieldText {
+    pub computed: Option<ComputedText>,
     pub passes: Option<u32>,
     pub sigma: Option<f64>,
     pub scale: Option<f64>,

@@ -48,7 +48,7 @@ impl Fields {
             Smoothing::Binomial(_) => "--passes",
             Smoothing::Gaussian(_) => "--sigma",
         };
-        let smoothing = build::smoothing(flag, self.smoothing, picture)?;
+        let smoothing = build::smoothing(flag, self.smoothing, picture.size())?;
         if let Some(choice) = self.kinds.iter().find(|choice| !choice.is_field()) {
             let fields = FORCES.iter().map(|kind| kind.name);
             let fields: Vec<&str> = fields
@@ -71,14 +71,14 @@ impl Fields {
         };
         let (width, height) = picture.size();
         let mut note = format!("{width} × {height} pixels");
-        if let Ok(scale) = field::image_scale(&picture.levels) {
+        if let Ok(scale) = field::image_scale(picture.levels()) {
             note.push_str(&format!(
                 ". Noise {:.2}, strong edges {:.1} high and {:.2} pixels wide (σ), in grey levels of 0 to 255",
                 scale.noise, scale.contrast, scale.blur
             ));
         }
         sheet.begin("The picture", note);
-        sheet.show("0-picture", "grey levels", &paint::grey(&picture.levels))?;
+        sheet.show("0-picture", "grey levels", &paint::grey(picture.levels()))?;
         if self.stages {
             sheet.stages(smoothing)?;
         }
@@ -135,7 +135,7 @@ impl Sheet<'_> {
             smoothing: Smoothing::Binomial(0),
             gain: EdgeForce::as_strong_as_the_report().gain,
         };
-        let masked = self.picture.masked(&self.picture.levels).map_err(refuse)?;
+        let masked = self.picture.masked(self.picture.levels()).map_err(refuse)?;
         let smoothed = masked.smoothed(smoothing).map_err(refuse)?;
         let stages = field::edge_stages(&smoothed, &unsmoothed).map_err(refuse)?;
         let sigma = smoothing.sigma();
@@ -175,7 +175,7 @@ impl Sheet<'_> {
             Smoothing::Gaussian(_) => field::REPORT_PASSES,
         };
         let (scale, gain) = (field::REPORT_SCALE, field::REPORT_GAIN);
-        let report = field::report_force(&self.picture.levels, passes, scale, gain);
+        let report = field::report_force(self.picture.levels(), passes, scale, gain);
         let note = format!("report rules, {passes} passes: each axis by itself; energy: none");
         self.force("6-report-force", &note, &report.map_err(refuse)?, None)
     }
@@ -248,7 +248,7 @@ fn arrows(picture: &Picture, force: &ForceField) -> RgbImage {
     let pitch = (width.max(height) / 40).max(4);
     // so many pixels that an arrow is seen to be one
     let zoom = (20.0 / pitch as f64).ceil();
-    let mut canvas = paint::enlarged(&paint::faded(&paint::grey(&picture.levels)), zoom);
+    let mut canvas = paint::enlarged(&paint::faded(&paint::grey(picture.levels())), zoom);
     let largest = force.largest().max(f64::MIN_POSITIVE);
     for row in (pitch / 2..height).step_by(pitch) {
         for column in (pitch / 2..width).step_by(pitch) {

@@ -3,16 +3,17 @@
 use std::fs::File;
 use std::io::{Cursor, Read as _};
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use field::Grid;
-use image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader, Limits, Rgb, RgbImage};
+use image::{ColorType, DynamicImage, ImageDecoder as _, ImageFormat, ImageReader, Limits, Rgb};
 use ndarray::Array2;
 use tiff::decoder::{Decoder, DecodingResult};
 
+use super::pixels::{Pixels, luma};
 use super::{Invalid, Picture};
 use crate::error::clip;
-use crate::limits::{MOST_PIXEL_BYTES, MOST_PIXELS};
+use crate::limits::{MOST_PIXEL_BYTES, MOST_PIXELS, MOST_WHOLE};
 
 /// What to say instead of every other kind of file.
 const WANTED: &str = "a PNG, JPEG, TIFF, PGM or PPM picture";
@@ -62,11 +63,14 @@ pub(super) fn decode(bytes: &[u8], most: u64, invalid: Invalid) -> Result<Pictur
     limits.max_alloc = Some(most.saturating_mul(MOST_PIXEL_BYTES).max(1 << 20));
     reader.limits(limits);
     let decoder = reader.into_decoder().map_err(broken)?;
+    let kept = matches!(
+        decoder.color_type(),
+        ColorType::L8 | ColorType::L16 | ColorType::Rgb8
+    );
+    let most = if kept { most } else { most.min(MOST_WHOLE) };
     check_size(decoder.dimensions(), most)?;
-    from_image(
-        &DynamicImage::from_decoder(decoder).map_err(broken)?,
-        invalid,
-    )
+    let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
+    from_image(image, invalid)
 }
 
 /// Refuse a picture without a pixel, or too large to hold in memory.
@@ -92,6 +96,7 @@ fn grey_floats(bytes: &[u8], most: u64, invalid: Invalid) -> Result<Option<Pictu
         return Ok(None);
     }
     let (width, height) = decoder.dimensions().map_err(broken)?;
+    let most = most.min(MOST_WHOLE);
     check_size((width, height), most)?;
     let mut limits = tiff::decoder::Limits::default();
     let bytes = most.saturating_mul(MOST_PIXEL_BYTES).max(1 << 20);
@@ -149,74 +154,71 @@ fn broken(error: impl std::fmt::Display) -> String {
     format!("the picture cannot be decoded: {error}; a whole one would do")
 }
 
-fn from_image(image: &DynamicImage, invalid: Invalid) -> Result<Picture, String> {
-    let (width, height) = (image.width() as usize, image.height() as usize);
-    // grey in three channels is that grey exactly, as in one
-    let luma = |[r, g, b]: [f64; 3]| {
-        if r.to_bits() == g.to_bits() && g.to_bits() == b.to_bits() {
-            r
-        } else {
-            0.299 * r + 0.587 * g + 0.114 * b
+fn from_image(image: DynamicImage, invalid: Invalid) -> Result<Picture, String> {
+    let size @ (width, height) = (image.width() as usize, image.height() as usize);
+    let dim = (height, width);
+    let bytes = |list| Array2::from_shape_vec(dim, list).map_err(broken);
+    let words = |list| Array2::from_shape_vec(dim, list).map_err(broken);
+    let pixels = match image {
+        DynamicImage::ImageLuma8(i) => Pixels::Bytes(bytes(i.into_raw())?.into_shared()),
+        DynamicImage::ImageLumaA8(i) => {
+            Pixels::Bytes(bytes(i.pixels().map(|p| p.0[0]).collect())?.into_shared())
+        }
+        DynamicImage::ImageLuma16(i) => Pixels::Words(words(i.into_raw())?.into_shared()),
+        DynamicImage::ImageLumaA16(i) => {
+            Pixels::Words(words(i.pixels().map(|p| p.0[0]).collect())?.into_shared())
+        }
+        DynamicImage::ImageRgb16(_)
+        | DynamicImage::ImageRgba16(_)
+        | DynamicImage::ImageRgb32F(_)
+        | DynamicImage::ImageRgba32F(_) => return from_deep(&image, invalid),
+        other => {
+            let colors = other.into_rgb8();
+            if !colors.pixels().any(|p| !is_grey(p.0)) {
+                let grey = bytes(colors.pixels().map(|p| p.0[0]).collect())?;
+                return Ok(Picture::of(size, Pixels::Bytes(grey.into_shared())));
+            }
+            let mut picture = Picture::of(size, Pixels::Colors(Arc::new(colors)));
+            picture.color = true;
+            return Ok(picture);
         }
     };
-    let levels: Vec<f64> = match image {
-        DynamicImage::ImageLuma8(i) => i.as_raw().iter().map(|&v| f64::from(v)).collect(),
-        DynamicImage::ImageLuma16(i) => i.as_raw().iter().map(|&v| f64::from(v) / 257.0).collect(),
-        DynamicImage::ImageLumaA8(i) => i.pixels().map(|p| f64::from(p.0[0])).collect(),
-        DynamicImage::ImageLumaA16(i) => i.pixels().map(|p| f64::from(p.0[0]) / 257.0).collect(),
-        DynamicImage::ImageRgb16(_) | DynamicImage::ImageRgba16(_) => image
-            .to_rgb16()
-            .pixels()
-            .map(|p| luma(p.0.map(|v| f64::from(v) / 257.0)))
-            .collect(),
-        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => image
-            .to_rgb32f()
-            .pixels()
-            .map(|p| luma(p.0.map(|v| f64::from(v) * 255.0)))
-            .collect(),
-        _ => image
-            .to_rgb8()
-            .pixels()
-            .map(|p| luma(p.0.map(f64::from)))
-            .collect(),
-    };
-    let (levels, valid) = grid(width, height, levels, invalid)?;
-    let display = image.to_rgb8();
-    let (color, deep) = colors(image, &display);
-    Ok(Picture {
-        levels,
-        display,
-        color,
-        deep,
-        valid,
-    })
+    Ok(Picture::of(size, pixels))
 }
 
-/// Whether there is more than grey in an image, and its colors if they have more than eight bits.
-fn colors(image: &DynamicImage, display: &RgbImage) -> (bool, Option<Arc<Vec<[f32; 3]>>>) {
-    let deep: Option<Vec<[f32; 3]>> = match image {
-        DynamicImage::ImageRgb16(_) | DynamicImage::ImageRgba16(_) => {
-            let pixels = image.to_rgb16();
-            let shallow = |p: &Rgb<u16>| p.0.map(|v| f32::from(v) / 257.0);
-            Some(pixels.pixels().map(shallow).collect())
-        }
+/// Colors of more than eight bits.
+fn from_deep(image: &DynamicImage, invalid: Invalid) -> Result<Picture, String> {
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let deep: Vec<[f32; 3]>;
+    let levels: Vec<f64>;
+    match image {
         DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
             let pixels = image.to_rgb32f();
+            let level = |p: &Rgb<f32>| luma(p.0.map(|v| f64::from(v) * 255.0));
+            levels = pixels.pixels().map(level).collect();
             // what is no number does not count
             let finite = |v: f32| if v.is_finite() { v * 255.0 } else { 0.0 };
-            Some(pixels.pixels().map(|p| p.0.map(finite)).collect())
+            deep = pixels.pixels().map(|p| p.0.map(finite)).collect();
         }
-        _ => None,
-    };
-    let grey = |[r, g, b]: [f32; 3]| r.to_bits() == g.to_bits() && g.to_bits() == b.to_bits();
-    match deep {
-        Some(deep) if deep.iter().all(|&p| grey(p)) => (false, None),
-        Some(deep) => (true, Some(Arc::new(deep))),
-        None => (
-            display
-                .pixels()
-                .any(|p| !(p.0[0] == p.0[1] && p.0[1] == p.0[2])),
-            None,
-        ),
+        _ => {
+            let pixels = image.to_rgb16();
+            let level = |p: &Rgb<u16>| luma(p.0.map(|v| f64::from(v) / 257.0));
+            levels = pixels.pixels().map(level).collect();
+            let shallow = |p: &Rgb<u16>| p.0.map(|v| f32::from(v) / 257.0);
+            deep = pixels.pixels().map(shallow).collect();
+        }
     }
+    let (levels, valid) = grid(width, height, levels, invalid)?;
+    let mut picture = Picture::from_levels(levels);
+    picture.display = OnceLock::from(image.to_rgb8());
+    picture.valid = valid;
+    if !deep.iter().all(|p| is_grey(p.map(f32::to_bits))) {
+        picture.color = true;
+        picture.deep = Some(Arc::new(deep));
+    }
+    Ok(picture)
+}
+
+fn is_grey<T: PartialEq>([r, g, b]: [T; 3]) -> bool {
+    r == g && g == b
 }

@@ -70,28 +70,27 @@ impl Picture {
             }
             share
         };
-        let levels = Grid::from_shape_fn((height, width), |(y, x)| {
+        let mut levels = Grid::from_shape_fn((height, width), |(y, x)| {
             let share = share(DVec2::new(x as f64, y as f64));
             text.background + (text.foreground - text.background) * share
         });
-        let mut picture = Self::from_levels(levels);
         if text.blur > 0.0 {
             let gaussian = Smoothing::Gaussian(text.blur);
             let blur = EdgeForce {
-                smoothing: smoothing("picture.drawn.blur", gaussian, &picture)?,
+                smoothing: smoothing("picture.drawn.blur", gaussian, (width, height))?,
                 gain: 1.0,
             };
-            picture.levels = field::edge_stages(&picture.levels, &blur)
+            levels = field::edge_stages(&levels, &blur)
                 .map_err(|error| key("blur", error.to_string()))?
                 .smoothed;
         }
-        for (at, level) in picture.levels.iter_mut().enumerate() {
+        for (at, level) in levels.iter_mut().enumerate() {
             if text.noise > 0.0 {
                 *level += text.noise * normal(text.seed, at as u64);
             }
             *level = level.clamp(0.0, 255.0).round();
         }
-        Ok(Self::from_levels(picture.levels))
+        Ok(Self::from_levels(levels))
     }
 }
 

@@ -8,24 +8,29 @@
 
 mod decode;
 mod drawn;
+mod pixels;
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use field::{FieldError, Grid, MaskedImage};
+use field::{EdgeForce, FieldError, ForceField, Grid, MaskedImage};
 use image::RgbImage;
 use ndarray::Array2;
+use pixels::Pixels;
 
 use crate::SceneError;
 use crate::limits::MOST_PIXELS;
 
 /// A picture: grey levels to compute with, and colours to look at.
+///
+/// Kept as it came: 8 or 16 bits a pixel or channel stay that. Levels in doubles and what is displayed are made when
+/// they are first asked for, and kept.
 #[derive(Debug, Clone)]
 pub struct Picture {
-    /// Grey levels, 0 … 255, indexed `[[y, x]]`.
-    pub levels: Grid,
-    /// The same as a person sees it.
-    pub display: RgbImage,
+    size: (usize, usize),
+    pixels: Pixels,
+    levels: OnceLock<Grid>,
+    display: OnceLock<RgbImage>,
     /// Whether its colors are more than grey.
     color: bool,
     /// Colors of more than eight bits; those of eight bits are what is displayed.
@@ -109,17 +114,48 @@ impl Picture {
     #[must_use]
     pub fn from_levels(levels: Grid) -> Self {
         let (height, width) = levels.dim();
-        let display = RgbImage::from_fn(as_u32(width), as_u32(height), |x, y| {
-            let level = crate::paint::byte(levels[[y as usize, x as usize]]);
-            image::Rgb([level; 3])
-        });
+        let mut picture = Self::of((width, height), Pixels::Levels);
+        picture.levels = OnceLock::from(levels);
+        picture
+    }
+
+    /// A grey picture of these pixels.
+    const fn of(size: (usize, usize), pixels: Pixels) -> Self {
         Self {
-            levels,
-            display,
+            size,
+            pixels,
+            levels: OnceLock::new(),
+            display: OnceLock::new(),
             color: false,
             deep: None,
             valid: None,
         }
+    }
+
+    /// Grey levels, 0 … 255, indexed `[[y, x]]`: eight bytes a pixel from the first call on.
+    #[must_use]
+    pub fn levels(&self) -> &Grid {
+        // pixels that are levels have them from the start
+        let levels = || self.pixels.levels().unwrap_or_default();
+        self.levels.get_or_init(levels)
+    }
+
+    /// The picture as a person sees it.
+    #[must_use]
+    pub fn display(&self) -> &RgbImage {
+        if let Pixels::Colors(colors) = &self.pixels {
+            return colors;
+        }
+        self.display.get_or_init(|| {
+            let (width, height) = self.size;
+            let shown = self.pixels.display();
+            shown.unwrap_or_else(|| {
+                RgbImage::from_fn(as_u32(width), as_u32(height), |x, y| {
+                    let level = crate::paint::byte(self.levels()[[y as usize, x as usize]]);
+                    image::Rgb([level; 3])
+                })
+            })
+        })
     }
 
     /// The same picture of which only the pixels count that are not black in `mask`.
@@ -134,7 +170,7 @@ impl Picture {
                 "the mask has {a}×{b} pixels and the picture {width}×{height}; as many would do"
             ));
         }
-        let mut valid = mask.levels.mapv(|level| level > 0.0);
+        let mut valid = mask.levels().mapv(|level| level > 0.0);
         if let Some(before) = &self.valid {
             valid.zip_mut_with(before, |now, &before| *now &= before);
         }
@@ -161,13 +197,13 @@ impl Picture {
     #[must_use]
     pub fn channels(&self) -> Vec<Grid> {
         if !self.color {
-            return vec![self.levels.clone()];
+            return vec![self.levels().clone()];
         }
         let (width, height) = self.size();
         let channel = |c: usize| {
             Grid::from_shape_fn((height, width), |(y, x)| match &self.deep {
                 Some(colors) => f64::from(colors[y * width + x][c]),
-                None => f64::from(self.display.get_pixel(as_u32(x), as_u32(y)).0[c]),
+                None => f64::from(self.display().get_pixel(as_u32(x), as_u32(y)).0[c]),
             })
         };
         (0..3).map(channel).collect()
@@ -181,6 +217,47 @@ impl Picture {
         }
     }
 
+    /// The corrected edge force of its grey levels, computed where it is asked for and in `f32`; None where some pixels do not
+    /// count.
+    ///
+    /// # Errors
+    ///
+    /// A smoothing too wide for tiles, a gain that will not do.
+    pub(crate) fn lazy_edge_force(
+        &self,
+        rule: &EdgeForce,
+    ) -> Result<Option<ForceField>, FieldError> {
+        if self.valid.is_some() {
+            return Ok(None);
+        }
+        let lazy = match self.pixels.lazy_edge_force(rule) {
+            Some(lazy) => lazy,
+            None => pixels::lazy_edge_force_of(self.levels(), rule),
+        };
+        lazy.map(Some)
+    }
+
+    /// The largest level there may be.
+    pub(crate) fn largest_level(&self) -> f64 {
+        match &self.pixels {
+            Pixels::Levels => self.levels().iter().fold(0.0, |most, v| most.max(v.abs())),
+            _ => 255.0,
+        }
+    }
+
+    /// Whether its pixels were finite and within bounds before anyone looked: those of 8 and 16 bits are.
+    pub(crate) const fn is_tame(&self) -> bool {
+        !matches!(self.pixels, Pixels::Levels)
+    }
+
+    /// [`Picture::contrast`] of its levels.
+    pub(crate) fn grey_contrast(&self) -> f64 {
+        match (&self.valid, self.levels.get()) {
+            (None, None) => pixels::spread(&mut self.pixels.ordered()),
+            _ => self.contrast(self.levels()),
+        }
+    }
+
     /// Spread of a grid of this picture's size: from the 2nd to the 98th percentile of what counts, or where
     /// these are one, from the least to the largest. 0 for a constant.
     pub(crate) fn contrast(&self, grid: &Grid) -> f64 {
@@ -191,32 +268,13 @@ impl Picture {
                 both.filter(|(_, ok)| **ok).map(|(&v, _)| v).collect()
             }
         };
-        let n = levels.len();
-        if n == 0 {
-            return 0.0;
-        }
-        let mut at = |part: usize| {
-            let k = (n - 1) * part / 100;
-            *levels.select_nth_unstable_by(k, f64::total_cmp).1
-        };
-        let (least, largest) = (at(0), at(100));
-        // less than the rounding of colors to grey leaves
-        if largest - least <= 1e-12 * least.abs().max(largest.abs()) {
-            return 0.0;
-        }
-        let spread = at(98) - at(2);
-        if spread > 0.0 {
-            spread
-        } else {
-            largest - least
-        }
+        pixels::spread(&mut pixels::Ordered::Levels(&mut levels))
     }
 
     /// Width and height.
     #[must_use]
-    pub fn size(&self) -> (usize, usize) {
-        let (height, width) = self.levels.dim();
-        (width, height)
+    pub const fn size(&self) -> (usize, usize) {
+        self.size
     }
 }
 

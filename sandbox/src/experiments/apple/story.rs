@@ -153,7 +153,7 @@ impl Story {
         keep_energies(record, "energy", &self.run);
         keep_truth(record, &self.truth);
         if let Some(picture) = &self.scene.picture {
-            record.keep_grid("picture", halved(&picture.levels));
+            record.keep_grid("picture", halved(picture.levels()));
         }
         let tables = [
             (Table::raw("fine"), Some(1)),

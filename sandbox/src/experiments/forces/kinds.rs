@@ -273,7 +273,7 @@ fn run() -> Result<Record, SandboxError> {
     let no = || SandboxError::refused::<FieldError>(ID);
     let u = u_shape(ID)?;
     let apple = scene::Picture::shipped("apple").map_err(SandboxError::refused(ID))?;
-    let apple = shrunk(&apple.levels, SMALL);
+    let apple = shrunk(apple.levels(), SMALL);
     for (name, make) in KINDS {
         for (picture, image) in [("U", &u), ("apple", &apple)] {
             let field = make(image).map_err(no())?;

@@ -9,17 +9,20 @@ mod reach;
 mod region;
 mod strength;
 
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use elastic::Profile;
-use field::{FieldError, ForceField, Grid, MaskedImage, Smoothing};
+use field::{EdgeForce, FieldError, ForceField, Grid, MaskedImage, Smoothing};
 use glam::DVec2;
 use snake::{Acting, Gravity, ImageForce, Pressure, RegionForce, Sampling, World};
 
 use super::body::{profile, straight};
+use super::edge_field::{Computing, Wanted, edge_field};
 use super::{number, smoothing};
 use crate::file::{EdgeText, ForceText, KindText, PolarityText};
+use crate::limits::USUALLY_WHOLE;
 use crate::{Picture, SceneError};
 
 /// Force of strength 1: a gain of 6 on 120 levels, smoothed with σ² = 10, at its strongest, one σ from the
@@ -27,7 +30,7 @@ use crate::{Picture, SceneError};
 pub(crate) const PULL: f64 = 6.0 * 120.0 / 10.0 * NORMAL_AT_1;
 
 /// e^(−½)/√(2π) and 1/√(2π): the normal density at one σ and at none.
-const NORMAL_AT_1: f64 = 0.241_970_724_519_143_37;
+pub(crate) const NORMAL_AT_1: f64 = 0.241_970_724_519_143_37;
 const NORMAL_AT_0: f64 = 0.398_942_280_401_432_7;
 
 /// A force field with what it is the gradient of.
@@ -40,23 +43,66 @@ pub(crate) struct Made {
 /// A picture as the kinds of force look at it.
 pub(crate) struct Sight<'a> {
     pub picture: &'a Picture,
-    grey: MaskedImage,
+    grey: OnceCell<MaskedImage>,
     contrast: f64,
+    computing: Computing,
+    whole_up_to: u64,
 }
 
 impl<'a> Sight<'a> {
     pub(crate) fn of(picture: &'a Picture) -> Result<Self, SceneError> {
-        let refuse = |e: FieldError| SceneError::key("picture", e);
-        Ok(Self {
+        let sight = Self {
             picture,
-            grey: picture.masked(&picture.levels).map_err(refuse)?,
-            contrast: picture.contrast(&picture.levels),
-        })
+            grey: OnceCell::new(),
+            contrast: picture.grey_contrast(),
+            computing: Computing::Auto,
+            whole_up_to: USUALLY_WHOLE,
+        };
+        if !picture.is_tame() {
+            sight.grey("picture")?; // pixels that will not do are found first
+        }
+        Ok(sight)
+    }
+
+    /// The same for a single fit.
+    pub(crate) const fn for_fit(mut self, computing: Computing) -> Self {
+        self.computing = computing;
+        self.whole_up_to = 0;
+        self
     }
 
     /// Spread of the levels that count, for a gain: a constant exerts no force whatever its gain.
     pub(crate) fn contrast(&self) -> f64 {
         above_nothing(self.contrast)
+    }
+
+    /// The same, 0 for a constant.
+    pub(crate) const fn true_contrast(&self) -> f64 {
+        self.contrast
+    }
+
+    /// The grey levels with the word on which of them count.
+    fn grey(&self, key: &str) -> Result<&MaskedImage, SceneError> {
+        if let Some(grey) = self.grey.get() {
+            return Ok(grey);
+        }
+        let refuse = |e: FieldError| SceneError::key(key, e);
+        let grey = self.picture.masked(self.picture.levels()).map_err(refuse)?;
+        Ok(self.grey.get_or_init(|| grey))
+    }
+
+    /// The corrected edge force of the grey levels; refused by the keys of the smoothing and of the choice.
+    pub(crate) fn edge_field(
+        &self,
+        rule: EdgeForce,
+        keys: [&str; 2],
+    ) -> Result<ForceField, SceneError> {
+        let wanted = Wanted {
+            computing: self.computing,
+            whole_up_to: self.whole_up_to,
+            keys,
+        };
+        edge_field(self.picture, self.contrast, rule, &wanted)
     }
 
     /// What to say of a picture without any contrast.
@@ -126,21 +172,21 @@ impl At<'_> {
         smoothing(
             &self.key("sigma"),
             Smoothing::Gaussian(sigma),
-            self.sight.picture,
+            self.sight.picture.size(),
         )?;
         Ok(sigma)
     }
 
     /// The grey picture smoothed, over what counts.
     fn smoothed(&self, sigma: f64) -> Result<Grid, SceneError> {
-        let grey = &self.sight.grey;
+        let grey = self.sight.grey(self.key)?;
         grey.smoothed(Smoothing::Gaussian(sigma))
             .map_err(self.refuse())
     }
 
     /// `gain · ∇P` where pixels count, and its energy `−gain · P`.
     fn climbing(&self, strength: &Grid, gain: f64) -> Result<Made, SceneError> {
-        let field = self.sight.grey.force(strength, gain);
+        let field = self.sight.grey(self.key)?.force(strength, gain);
         Ok(Made {
             field: field.map_err(self.refuse())?,
             energy: Some(strength.mapv(|p| -gain * p)),
@@ -176,6 +222,10 @@ impl<'a> Around<'a> {
         let region = |region| Acting::new(RegionForce::new(region));
         Ok(match kind {
             KindText::Edge(text) if !either(text) => Acting::new(self.seen()?.signed_edge(text)?),
+            KindText::Edge(text) => {
+                let field = Arc::new(self.seen()?.felt_edge(text)?);
+                Acting::new(ImageForce::new(field, Sampling::Bilinear))
+            }
             KindText::Regions(text) => region(self.seen()?.regions(text)?),
             KindText::LocalRegions(text) => region(self.seen()?.local_regions(text)?),
             KindText::Likelihood(text) => region(self.seen()?.likelihood(text)?),

@@ -30,7 +30,11 @@ impl At<'_> {
         let field = field::distance_force(&edges, gain, reach).map_err(self.refuse())?;
         let distance = field::squared_distance(&edges);
         Ok(Made {
-            field: self.sight.grey.cut(&field).map_err(self.refuse())?,
+            field: self
+                .sight
+                .grey(self.key)?
+                .cut(&field)
+                .map_err(self.refuse())?,
             energy: Some(distance.mapv(|d| gain * d.sqrt().min(reach.min(far)))),
         })
     }
@@ -132,7 +136,11 @@ impl At<'_> {
         }
         let field = ForceField::from_components(&x, &y).map_err(self.refuse())?;
         Ok(Made {
-            field: self.sight.grey.cut(&field).map_err(self.refuse())?,
+            field: self
+                .sight
+                .grey(self.key)?
+                .cut(&field)
+                .map_err(self.refuse())?,
             energy: None,
         })
     }

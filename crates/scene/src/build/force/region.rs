@@ -33,7 +33,7 @@ impl At<'_> {
         let sigma = self.sigma(sigma, USUAL_SIGMA)?;
         let picture = self.sight.picture;
         let channels = if grey {
-            vec![picture.levels.clone()]
+            vec![picture.levels().clone()]
         } else {
             picture.channels()
         };
@@ -59,7 +59,7 @@ impl At<'_> {
         let channels = self.looked_at(sigma, grey)?;
         let contrast = |channel: &Grid| picture.contrast(channel);
         let squares: f64 = if grey {
-            contrast(&picture.levels).powi(2)
+            contrast(picture.levels()).powi(2)
         } else {
             picture.channels().iter().map(|c| contrast(c).powi(2)).sum()
         };
@@ -120,7 +120,7 @@ impl At<'_> {
         let usual = vec![1.5, 3.0];
         let sigmas = self.sigmas(text.sigmas.as_ref().unwrap_or(&usual))?;
         let picture = self.sight.picture;
-        let channels = field::texture_channels(&picture.levels, sigmas).map_err(self.refuse())?;
+        let channels = field::texture_channels(picture.levels(), sigmas).map_err(self.refuse())?;
         let masked: Result<Vec<MaskedImage>, _> =
             channels.iter().map(|c| picture.masked(c)).collect();
         let key = self.key("classes");

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use field::{EdgeForce, Line, Polarity, SignedEdge, Smoothing};
+use field::{EdgeForce, ForceField, Line, Polarity, SignedEdge, Smoothing};
 use snake::SignedEdgeForce;
 
 use super::{At, Made, NORMAL_AT_0, NORMAL_AT_1, above_nothing};
@@ -26,6 +26,16 @@ impl At<'_> {
         let sigma = self.sigma(text.sigma, USUAL_SIGMA)?;
         let gain = self.edge_gain(text.strength, sigma, self.sight.contrast())?;
         self.climbing(&self.edge_strength(sigma)?, gain)
+    }
+
+    /// The same field for a curve to feel, without its energy and so without all of it.
+    pub(super) fn felt_edge(&self, text: &EdgeText) -> Result<ForceField, SceneError> {
+        let sigma = text.sigma.unwrap_or(USUAL_SIGMA);
+        let (key, smoothing) = (self.key("sigma"), Smoothing::Gaussian(sigma));
+        smoothing.validate().map_err(|e| SceneError::key(&key, e))?;
+        let gain = self.edge_gain(text.strength, sigma, self.sight.contrast())?;
+        let rule = EdgeForce { smoothing, gain };
+        self.sight.edge_field(rule, [&key, self.key])
     }
 
     /// Edges of one polarity, by the curve's own normal.
@@ -87,7 +97,7 @@ impl At<'_> {
             return Err(SceneError::key(&key, message));
         }
         for &sigma in sigmas {
-            smoothing(&key, Smoothing::Gaussian(sigma), self.sight.picture)?;
+            smoothing(&key, Smoothing::Gaussian(sigma), self.sight.picture.size())?;
         }
         Ok(sigmas)
     }
@@ -98,7 +108,7 @@ impl At<'_> {
         let finest = sigmas.iter().copied().fold(f64::INFINITY, f64::min);
         // the strength of a scale counts √σ times
         let gain = self.edge_gain(text.strength, finest, self.sight.contrast())? / finest.sqrt();
-        let mut strength = field::Grid::zeros(self.sight.picture.levels.dim());
+        let mut strength = field::Grid::zeros(self.sight.picture.levels().dim());
         for &sigma in sigmas {
             let factor = sigma.sqrt();
             strength.zip_mut_with(&self.edge_strength(sigma)?, |most, &p| {
