@@ -28,6 +28,44 @@ pub struct CoarseToFine {
     pub blur: f64,
 }
 
+impl CoarseToFine {
+    /// The edge force of each scale, coarse first: for who makes the fields some other way, as by
+    /// [`lazy_force`](crate::lazy_force).
+    ///
+    /// ```text
+    /// gain_k = gain · w_k / w_last        w = σ² + blur² + 2/3
+    /// ```
+    ///
+    /// # Errors
+    /// No scales; one that is not smaller than the one before, not above 0 or absurd; a `blur` below 0; a gain that is not above 0.
+    pub fn rules(&self) -> Result<Vec<EdgeForce>, FieldError> {
+        let Some(&last) = self.sigmas.last() else {
+            return Err(FieldError::NotPositive {
+                name: "number of scales",
+                value: 0.0,
+            });
+        };
+        if self.blur < 0.0 || !self.blur.is_finite() {
+            return Err(FieldError::NotPositive {
+                name: "blur",
+                value: self.blur,
+            });
+        }
+        positive("gain", self.gain)?;
+        for pair in self.sigmas.windows(2) {
+            positive("sigma less the next one", pair[0] - pair[1])?;
+        }
+        let width = |sigma: f64| sigma * sigma + self.blur * self.blur + 2.0 / 3.0;
+        let rule = |&sigma: &f64| {
+            let smoothing = Smoothing::Gaussian(sigma);
+            smoothing.validate()?;
+            let gain = self.gain * width(sigma) / width(last);
+            Ok(EdgeForce { smoothing, gain })
+        };
+        self.sigmas.iter().map(rule).collect()
+    }
+}
+
 /// The corrected edge force at each scale, coarse first, as strong at a straight step at each.
 ///
 /// ```text
@@ -41,32 +79,18 @@ pub struct CoarseToFine {
 /// next changes the energy. O(pixels · Σ σ).
 ///
 /// # Errors
-/// No scales; one that is not smaller than the one before; a `blur` below 0; what [`edge_force`] refuses.
+/// What [`CoarseToFine::rules`] refuses, and [`edge_force`].
 pub fn coarse_to_fine(image: &Grid, rule: &CoarseToFine) -> Result<Vec<Scale>, FieldError> {
-    let Some(&last) = rule.sigmas.last() else {
-        return Err(FieldError::NotPositive {
-            name: "number of scales",
-            value: 0.0,
-        });
-    };
-    if rule.blur < 0.0 || !rule.blur.is_finite() {
-        return Err(FieldError::NotPositive {
-            name: "blur",
-            value: rule.blur,
-        });
-    }
-    for pair in rule.sigmas.windows(2) {
-        positive("sigma less the next one", pair[0] - pair[1])?;
-    }
-    let width = |sigma: f64| sigma * sigma + rule.blur * rule.blur + 2.0 / 3.0;
-    let scale = |&sigma: &f64| {
-        let smoothing = Smoothing::Gaussian(sigma);
-        smoothing.validate()?;
-        let gain = rule.gain * width(sigma) / width(last);
-        let field = edge_force(image, &EdgeForce { smoothing, gain })?;
+    let scale = |(rule, &sigma): (EdgeForce, &f64)| {
+        let field = edge_force(image, &rule)?;
+        let gain = rule.gain;
         Ok(Scale { sigma, gain, field })
     };
-    rule.sigmas.iter().map(scale).collect()
+    rule.rules()?
+        .into_iter()
+        .zip(&rule.sigmas)
+        .map(scale)
+        .collect()
 }
 
 #[cfg(test)]

@@ -30,6 +30,7 @@ forces![
     "edge", "edges of the grey picture, of both polarities or one", "-|grad(G*I)|; none for one polarity";
     "color-edge", "edges in color, those between colors of equal grey too", "-sqrt(l1-l2) of the structure tensor";
     "scales", "edges at several scales at once", "-max over the scales of sqrt(s)|grad(G_s*I)|";
+    "coarse-to-fine", "edges at one scale after another: from afar at first, exactly in the end", "-|grad(G_s*I)| of the scale at the time";
     "line", "bright or dark lines", "-(G*I), or that itself";
     "termination", "ends of lines, and corners", "-|curvature of the level lines|";
     "distance", "the nearest edge, with constant pull", "distance to the nearest edge";

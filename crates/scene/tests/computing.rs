@@ -205,3 +205,71 @@ fn a_scene_says_how_its_field_is_computed() {
     // 5e-7 of gain times level
     assert!((field.at(at) - whole.at(at)).length() < 5e-7 * 6.0 * 255.0);
 }
+
+#[test]
+fn from_coarse_to_fine_a_fit_arrives_from_where_one_scale_does_not() {
+    let [(_, picture), ..] = pictures();
+    // 40 pixels is the disc; the edge force reaches about ten
+    let far = circle(DVec2::new(140.0, 104.0), 66.0);
+    let end = |forces: &[&str]| {
+        let forces = forces.iter().map(|f| ForceChoice::parse(f).unwrap());
+        let fit = Fit {
+            forces: forces.collect(),
+            tension: 5.0,
+            rigidity: 20.0,
+            ..Fit::default()
+        };
+        let mut scene = fit.scene(picture.clone(), &far).unwrap();
+        let record = scene.run(&mut |_| std::ops::ControlFlow::Continue(()));
+        let record = record.unwrap();
+        let nodes = record.last().unwrap().nodes.clone();
+        let off = |p: &DVec2| (p.distance(DVec2::new(150.0, 100.0)) - 40.0).abs();
+        (
+            nodes.iter().map(off).fold(0.0, f64::max),
+            record.last().unwrap().t,
+        )
+    };
+    let ((one, _), (all, t)) = (end(&[]), end(&["coarse-to-fine"]));
+    assert!(one > 10.0 && all < 0.5, "{one}, {all}");
+    // rest is looked for after the last scale has come in
+    assert!(t >= 30.0, "{t}");
+}
+
+#[test]
+fn a_schedule_of_scales_is_one_force_a_scale_and_refused_by_its_keys() {
+    let scene = |lines: &str| {
+        let text = format!(
+            "title = \"t\"\n[picture.drawn]\nsize = [64, 40]\nregion = {{ right-of = 31.5 }}\n\
+             [[force]]\nkind = \"coarse-to-fine\"\n{lines}\n\
+             [snake]\nnodes = 5\ntopology = \"open\"\n\
+             start = {{ segment = {{ from = [20.0, 10.0], to = [20.0, 30.0] }} }}\n\
+             [material]\ntether = 0.0\ntension = 1.0\nrigidity = 1.0\n\
+             [densities]\nmass = 1.0\ndamping = 1.0\n[run]\ndt = 0.01\nsteps = 1\n"
+        );
+        Scene::parse("t", &text, Path::new("."))
+    };
+    let names = |lines: &str| {
+        let world = scene(lines).unwrap();
+        let names = world.snake.world().names().map(str::to_owned);
+        names.collect::<Vec<_>>()
+    };
+    let usual = ["", "-2", "-3", "-4"].map(|n| format!("coarse-to-fine{n}"));
+    assert_eq!(names("")[..4], usual);
+    assert_eq!(
+        names("sigmas = [6.0, 3.0]\nname = \"far\"")[..2],
+        ["far", "far-2"]
+    );
+    assert_eq!(names("sigmas = [6.0]")[..1], ["coarse-to-fine"]);
+    for (lines, says) in [
+        ("sigmas = []", "sigmas"),
+        ("sigmas = [2.0, 4.0]", "must fall"),
+        ("sigmas = [2.0, -4.0]", "sigma"),
+        ("hold = 0.0", "hold"),
+        ("blur = -1.0", "blur"),
+        ("strength = 0.0", "strength"),
+        ("schedule = [[0.0, 1.0], [1.0, 0.0]]", "one of its own"),
+    ] {
+        let error = scene(lines).unwrap_err().to_string();
+        assert!(error.contains(says), "{lines}: {error}");
+    }
+}

@@ -13,6 +13,7 @@
 use glam::DVec2;
 use integrator::{State, System};
 
+use crate::force::Acting;
 use crate::{ImageForce, Snake};
 
 /// What counts as rest. All three are ratios.
@@ -167,7 +168,11 @@ impl Watch {
         let most = self.rest.travel * self.size;
         let slow = self.far <= most && speed * window <= most;
         let calm = kinetic(snake, state) <= CALM * self.liveliest;
-        if slow && calm && net <= self.rest.balance * self.strongest {
+        if slow
+            && calm
+            && net <= self.rest.balance * self.strongest
+            && !is_scheduled(snake, state.t)
+        {
             return Verdict::Rest;
         }
         // to and fro: it was far and came back, window after window, and always as far
@@ -240,6 +245,12 @@ fn size(x: &[DVec2]) -> f64 {
         .iter()
         .fold((first, first), |(low, high), p| (low.min(*p), high.max(*p)));
     0.5 * (high - low).length()
+}
+
+/// Whether a schedule has yet to change something: a snake at rest before that waits.
+fn is_scheduled(snake: &Snake, t: f64) -> bool {
+    let forces = snake.world().forces.iter().map(Acting::end);
+    forces.fold(snake.body().schedules.end(), f64::max) > t
 }
 
 /// Whether most nodes are at the border of every picture the snake feels, or beyond.

@@ -58,6 +58,14 @@ impl Schedule {
             .fold(0.0, f64::max)
     }
 
+    /// When the factor has changed for the last time; minus infinity if it never does.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        let changes = |w: &&[(f64, f64)]| (w[0].1 - w[1].1).abs() > 0.0;
+        let last = self.points.windows(2).rfind(changes);
+        last.map_or(f64::NEG_INFINITY, |w| w[1].0)
+    }
+
     /// Whether the factor is the same at all times.
     #[must_use]
     pub fn is_constant(&self) -> bool {
@@ -102,6 +110,13 @@ impl Schedules {
             .map(|schedule| schedule.map_or(1.0, Schedule::largest))
     }
 
+    /// When the last of the factors has changed for the last time; minus infinity if none does.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        let ends = self.all().into_iter().flatten().map(Schedule::end);
+        ends.fold(f64::NEG_INFINITY, f64::max)
+    }
+
     fn all(&self) -> [Option<&Schedule>; 5] {
         [
             &self.tether,
@@ -125,6 +140,10 @@ mod tests {
             assert!((schedule.at(t) - factor).abs() < 1e-15, "at {t}");
         }
         assert!((schedule.largest() - 6.0).abs() < 1e-15);
+        assert_eq!(schedule.end().to_bits(), 3.0_f64.to_bits());
+        let level = Schedule::new(vec![(0.0, 1.0), (2.0, 0.5), (9.0, 0.5)]).unwrap();
+        assert_eq!(level.end().to_bits(), 2.0_f64.to_bits());
+        assert!(Schedule::new(vec![(1.0, 2.0), (3.0, 2.0)]).unwrap().end() < -1e300);
     }
 
     #[test]

@@ -57,6 +57,7 @@ kinds![
     "edge" Edge(EdgeText),
     "color-edge" ColorEdge(StrengthText),
     "scales" Scales(ScalesText),
+    "coarse-to-fine" CoarseToFine(CoarseToFineText),
     "line" Line(LineText),
     "termination" Termination(TerminationText),
     "distance" Distance(DistanceText),
@@ -166,6 +167,15 @@ pub(crate) struct StrengthText {
 pub(crate) struct ScalesText {
     pub sigmas: Option<Vec<f64>>,
     pub strength: Option<f64>,
+}
+
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct CoarseToFineText {
+    pub sigmas: Option<Vec<f64>>,
+    pub strength: Option<f64>,
+    pub blur: Option<f64>,
+    pub hold: Option<f64>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]

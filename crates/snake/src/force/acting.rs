@@ -93,6 +93,13 @@ impl Acting {
         &self.weight
     }
 
+    /// When its factor over time has changed for the last time; minus infinity if it never does.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        let end = self.schedule.as_ref().map(Schedule::end);
+        end.unwrap_or(f64::NEG_INFINITY)
+    }
+
     fn factor(&self, t: f64) -> f64 {
         self.schedule.as_ref().map_or(1.0, |s| s.at(t))
     }

@@ -277,10 +277,22 @@ const fn asks_inside(kind: &KindText) -> bool {
     )
 }
 
-/// The force of a `[[force]]`, or of a `--force`, with its weight and schedule.
-fn acting(around: &Around<'_>, text: &ForceText) -> Result<Acting, SceneError> {
+/// The force of a `[[force]]`, or of a `--force`, with its weight and schedule; one for each scale of a schedule of scales.
+fn acting(around: &Around<'_>, text: &ForceText) -> Result<Vec<Acting>, SceneError> {
     let (key, n) = (around.key, around.nodes.len());
-    let acting = around.force(&text.kind)?;
+    if let KindText::CoarseToFine(scales) = &text.kind
+        && text.common.schedule.is_some()
+    {
+        let hold = scales
+            .hold
+            .map_or_else(String::new, |hold| format!(" ({hold} here)"));
+        let message = format!("coarse-to-fine has one of its own; its hold{hold} would do");
+        return Err(SceneError::key(&format!("{key}: schedule"), message));
+    }
+    let list = match &text.kind {
+        KindText::CoarseToFine(scales) => around.seen()?.coarse_to_fine(scales)?,
+        kind => vec![around.force(kind)?],
+    };
     let weight = match &text.common.weight {
         Some(weight) => profile(&format!("{key}: weight"), weight, n)?,
         None => Profile::Uniform(1.0),
@@ -297,11 +309,14 @@ fn acting(around: &Around<'_>, text: &ForceText) -> Result<Acting, SceneError> {
         )?),
         None => None,
     };
-    let acting = acting.weighted(weight);
-    Ok(match schedule {
-        Some(schedule) => acting.scheduled(schedule),
-        None => acting,
-    })
+    let finish = |acting: Acting| {
+        let acting = acting.weighted(weight.clone());
+        match &schedule {
+            Some(schedule) => acting.scheduled(schedule.clone()),
+            None => acting,
+        }
+    };
+    Ok(list.into_iter().map(finish).collect())
 }
 
 /// Whether a kind is a force field that the picture has, whatever the curve.
@@ -325,6 +340,7 @@ pub(crate) fn looks(kind: &KindText) -> bool {
         || matches!(
             kind,
             KindText::Edge(_)
+                | KindText::CoarseToFine(_)
                 | KindText::Regions(_)
                 | KindText::LocalRegions(_)
                 | KindText::Likelihood(_)
@@ -365,13 +381,16 @@ pub(crate) fn add(
             nodes,
             closed,
         };
-        let acting = acting(&around, text)?;
-        let name = match &text.common.name {
-            Some(name) => name.clone(),
-            None => free(text.kind.word(), &taken),
-        };
-        taken.insert(name.clone());
-        world = world.with_acting(acting.named(&name));
+        let list = acting(&around, text)?;
+        for (i, acting) in list.into_iter().enumerate() {
+            let name = match &text.common.name {
+                Some(name) if i == 0 => name.clone(),
+                Some(name) => free(name, &taken),
+                None => free(text.kind.word(), &taken),
+            };
+            taken.insert(name.clone());
+            world = world.with_acting(acting.named(&name));
+        }
     }
     Ok(world)
 }

@@ -2,14 +2,15 @@
 
 use std::sync::Arc;
 
-use field::{EdgeForce, ForceField, Line, Polarity, SignedEdge, Smoothing};
-use snake::SignedEdgeForce;
+use field::{CoarseToFine, EdgeForce, ForceField, Line, Polarity, SignedEdge, Smoothing};
+use snake::{Acting, ImageForce, Sampling, Schedule, SignedEdgeForce};
 
 use super::{At, Made, NORMAL_AT_0, NORMAL_AT_1, above_nothing};
 use crate::SceneError;
 use crate::build::smoothing;
 use crate::file::{
-    EdgeText, LineText, PolarityText, ScalesText, ShadeText, StrengthText, TerminationText,
+    CoarseToFineText, EdgeText, LineText, PolarityText, ScalesText, ShadeText, StrengthText,
+    TerminationText,
 };
 
 /// What is smoothed already.
@@ -116,6 +117,63 @@ impl At<'_> {
             });
         }
         self.climbing(&strength, gain)
+    }
+
+    /// A force for each scale, coarse first; each is held, then fades over half that time while the next comes in.
+    pub(super) fn coarse_to_fine(
+        &self,
+        text: &CoarseToFineText,
+    ) -> Result<Vec<Acting>, SceneError> {
+        let usual = vec![16.0, 8.0, 4.0, 2.0];
+        let sigmas = text.sigmas.as_ref().unwrap_or(&usual);
+        let key = self.key("sigmas");
+        if sigmas.is_empty() || sigmas.len() > MOST_SCALES {
+            let message = format!("1 to {MOST_SCALES} numbers would do, got {}", sigmas.len());
+            return Err(SceneError::key(&key, message));
+        }
+        let falls = |pair: &[f64]| pair[0] > pair[1];
+        if !sigmas.windows(2).all(falls) {
+            let message = "must fall from each to the next; [16.0, 8.0, 4.0, 2.0] would do";
+            return Err(SceneError::key(&key, message));
+        }
+        let hold = self.above_zero("hold", text.hold, 10.0)?;
+        let blur = match text.blur {
+            Some(blur) if !(blur.is_finite() && blur >= 0.0) => {
+                let message = format!("must be finite and at least 0, got {blur}");
+                return Err(SceneError::key(&self.key("blur"), message));
+            }
+            blur => blur.unwrap_or(1.0),
+        };
+        let finest = sigmas.last().copied().unwrap_or(1.0);
+        let width = (finest * finest + blur * blur + 2.0 / 3.0).sqrt();
+        let rule = CoarseToFine {
+            sigmas: sigmas.clone(),
+            gain: self.edge_gain(text.strength, width, self.sight.contrast())?,
+            blur,
+        };
+        let rules = rule.rules().map_err(|e| SceneError::key(&key, e))?;
+        let last = rules.len() - 1;
+        let mut list = Vec::new();
+        for (i, rule) in rules.into_iter().enumerate() {
+            let field = Arc::new(self.sight.edge_field(rule, [&key, self.key])?);
+            let acting = Acting::new(ImageForce::new(field, Sampling::Bilinear));
+            #[expect(clippy::cast_precision_loss, reason = "at most 32 scales")]
+            let begin = i as f64 * hold;
+            let mut points = Vec::new();
+            if i > 0 {
+                points.extend([(begin - 0.5 * hold, 0.0), (begin, 1.0)]);
+            }
+            if i < last {
+                points.extend([(begin + 0.5 * hold, 1.0), (begin + hold, 0.0)]);
+            }
+            list.push(if points.is_empty() {
+                acting // one scale: always
+            } else {
+                let schedule = Schedule::new(points);
+                acting.scheduled(schedule.map_err(|e| SceneError::key(&self.key("hold"), e))?)
+            });
+        }
+        Ok(list)
     }
 
     pub(super) fn line(&self, text: &LineText) -> Result<Made, SceneError> {
