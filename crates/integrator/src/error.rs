@@ -14,8 +14,9 @@ pub enum SchemeError {
     },
     /// A step with which the scheme blows up.
     #[error(
-        "a step of {dt} is too large for {scheme}: the largest stable step is {limit}; take a \
-         smaller one, force it, or use a scheme without a limit, such as newmark"
+        "a step of {} is too large for {scheme}: the largest stable step is {}; take a \
+         smaller one, force it, or use a scheme without a limit, such as newmark",
+        number(*dt), number(*limit)
     )]
     AboveLimit {
         /// The scheme's name.
@@ -27,7 +28,8 @@ pub enum SchemeError {
     },
     /// A step so large or so small that the numbers of the scheme leave the range of `f64`.
     #[error(
-        "a step of {dt} is beyond what {scheme} can compute with; dt² and 1/dt² must be finite"
+        "a step of {} is beyond what {scheme} can compute with; dt² and 1/dt² must be finite",
+        number(*dt)
     )]
     BeyondNumbers {
         /// The scheme's name.
@@ -112,4 +114,13 @@ pub enum SchemeError {
     /// The matrix of an implicit step has no factor.
     #[error("the step's matrix cannot be factored: {0}")]
     Matrix(#[from] BandedError),
+}
+
+/// A number as people write it: with a power of ten where it would be a row of zeros.
+fn number(x: f64) -> String {
+    if (1e-6..1e9).contains(&x.abs()) {
+        x.to_string()
+    } else {
+        format!("{x:e}")
+    }
 }

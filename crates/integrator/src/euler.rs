@@ -87,7 +87,7 @@ impl Euler {
 
     /// Solve with the external force in `force`, and leave the increment there.
     fn increment(&mut self) {
-        each::onto(&self.base, &mut self.force, |base, force| force + base);
+        each::onto([&self.base], &mut self.force, |[base], force| force + base);
         self.solver.solve(&mut self.force);
     }
 
@@ -95,7 +95,9 @@ impl Euler {
     fn place(&mut self, x: &[DVec2]) -> bool {
         let rate = 1.0 / self.clock.dt;
         let to = [&mut self.next_x[..], &mut self.next_v[..]];
-        each::two_to_two([x, &self.force], to, move |x, step| (x + step, step * rate))
+        each::both([x, &self.force], to, move |[x, step]| {
+            (x + step, step * rate)
+        })
     }
 
     /// Inertia joins the forces.
@@ -103,7 +105,7 @@ impl Euler {
         if self.rule != Rule::GradientFlow {
             let rate = 1.0 / self.clock.dt;
             let mass = self.solver.masses(system);
-            each::weighted_onto(mass, v, &mut self.force, move |mass, v, force| {
+            each::weighted_onto(mass, [v], &mut self.force, move |[mass], [v], force| {
                 force + (mass * rate) * v
             });
         }

@@ -107,7 +107,7 @@ impl Leapfrog {
         let (v, force, coefficients) = (&v[..n], &self.force[..n], &self.coefficients[..n]);
         let (half, next) = (&mut self.half[..n], &mut self.next[..n]);
         let finite = if let Some(c) = self.common {
-            each::three_to_two([x, v, force], [&mut *next, half], move |x, v, force| {
+            each::both([x, v, force], [&mut *next, half], move |[x, v, force]| {
                 let speed = c.keep * v + c.kick * force;
                 (x + dt * speed, speed)
             })
@@ -135,7 +135,7 @@ impl Leapfrog {
     fn arrive(&mut self) {
         let (half, force) = (&mut self.half, &self.force);
         if let Some(c) = self.common {
-            each::onto(force, half, move |force, half| {
+            each::onto([force], half, move |[force], half| {
                 c.settle * (half + c.kick * force)
             });
             return;

@@ -276,18 +276,18 @@ impl Newmark {
         let (x, v) = (&mut self.next_x, &mut self.next_v);
         v.copy_from_slice(&state.v);
         stepper::release(system.held(), v);
-        each::two_into([&state.x, v], x, move |x, v| x + 0.5 * dt * v);
+        each::onto([&state.x, v], x, move |[x, v], _| x + 0.5 * dt * v);
         system.elastic(&state.x, &mut self.force);
         system.external(t + 0.5 * dt, x, v, &mut self.force)?;
         let (mass, rate) = (self.solver.masses(system), 4.0 / dt);
-        each::weighted_onto(mass, v, &mut self.force, move |mass, v, force| {
+        each::weighted_onto(mass, [v], &mut self.force, move |[mass], [v], force| {
             2.0 * force + (rate * mass) * v
         });
         stepper::release(system.held(), &mut self.force);
         self.solver.solve(&mut self.force);
         let rate = 2.0 / dt;
         let to = [&mut x[..], &mut self.late[..]];
-        let finite = each::three_to_two([&state.x, &self.force, v], to, move |x, step, v| {
+        let finite = each::both([&state.x, &self.force, v], to, move |[x, step, v]| {
             (x + step, rate * step - v)
         });
         if !finite {

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::contact::{Contacts, Moment, Pace};
 use crate::stepper::{self, Clock, Mass};
-use crate::{Fault, SchemeError, State, Stepper, System};
+use crate::{Fault, SchemeError, State, Stepper, System, each};
 
 /// Runge and Kutta's method of order 4, four forces a step.
 ///
@@ -33,6 +33,8 @@ pub(crate) struct Rk4 {
 pub(crate) struct Rates {
     /// 1/μ, and γ/μ; zero at held nodes.
     inverse: Vec<(f64, f64)>,
+    /// Those of all nodes, where they are the same and none is held.
+    common: Option<(f64, f64)>,
 }
 
 impl Rates {
@@ -47,6 +49,9 @@ impl Rates {
             };
             self.inverse.push(rates);
         }
+        let first = self.inverse.first().copied();
+        self.common =
+            first.filter(|first| first.0 > 0.0 && self.inverse.iter().all(|rates| rates == first));
     }
 
     /// Bring the system to time `t` and the rates with it.
@@ -77,10 +82,13 @@ impl Rates {
         rate: &mut [DVec2],
     ) -> Result<(), Fault> {
         stepper::force(system, t, x, v, rate)?;
-        for i in 0..rate.len() {
-            let (inverse, fade) = self.inverse[i];
-            rate[i] = if inverse > 0.0 {
-                inverse * rate[i] - fade * v[i]
+        if let Some((inverse, fade)) = self.common {
+            each::onto([v], rate, move |[v], rate| inverse * rate - fade * v);
+            return Ok(());
+        }
+        for ((rate, &v), &(inverse, fade)) in rate.iter_mut().zip(v).zip(&self.inverse) {
+            *rate = if inverse > 0.0 {
+                inverse * *rate - fade * v
             } else {
                 DVec2::ZERO
             };
@@ -91,11 +99,7 @@ impl Rates {
 
 /// Nodes that may not move have no velocity.
 pub(crate) fn stop_held(system: &dyn System, v: &mut [DVec2]) {
-    for (v, &held) in v.iter_mut().zip(system.held()) {
-        if held {
-            *v = DVec2::ZERO;
-        }
-    }
+    stepper::release(system.held(), v);
 }
 
 impl Rk4 {
@@ -112,6 +116,7 @@ impl Rk4 {
         let zeros = || vec![DVec2::ZERO; n];
         let mut rates = Rates {
             inverse: Vec::with_capacity(n),
+            common: None,
         };
         rates.prepare(system);
         Ok(Self {
@@ -148,17 +153,15 @@ impl Stepper for Rk4 {
             self.rates
                 .acceleration(system, now, &self.x, &self.v, &mut self.rate)?;
             let (share, reach) = (dt * weight / 6.0, dt * ahead);
-            for i in 0..state.len() {
-                let (v, a) = (self.v[i], self.rate[i]);
-                self.next_x[i] += share * v;
-                self.next_v[i] += share * a;
-                self.x[i] = state.x[i] + reach * v;
-                self.v[i] = if self.rates.inverse[i].0 > 0.0 {
-                    state.v[i] + reach * a
-                } else {
-                    DVec2::ZERO
-                };
-            }
+            each::onto([&self.v], &mut self.next_x, move |[v], x| x + share * v);
+            each::onto([&self.rate], &mut self.next_v, move |[a], v| v + share * a);
+            each::onto([&state.x, &self.v], &mut self.x, move |[x, v], _| {
+                x + reach * v
+            });
+            each::onto([&state.v, &self.rate], &mut self.v, move |[v, a], _| {
+                v + reach * a
+            });
+            stop_held(system, &mut self.v);
         }
         stepper::finite(&self.next_x)?;
         let moment = Moment {

@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::contact::{Contacts, Moment, Pace};
 use crate::solver::Solver;
 use crate::stepper::{self, Clock, Mass};
-use crate::{Fault, SchemeError, State, Stepper, System};
+use crate::{Fault, SchemeError, State, Stepper, System, each};
 
 /// Backward differences of order 2, with the external force extrapolated.
 ///
@@ -74,22 +74,29 @@ impl Sbdf2 {
     /// Sum up the right-hand side of the first step or a later one.
     fn gather(&mut self, system: &dyn System, state: &State) {
         let dt = self.clock.dt;
-        let (mass, damping, held) = (system.mass(), system.damping(), system.held());
-        let starts = self.starts;
-        for i in 0..state.len() {
-            if held[i] {
-                self.force[i] = DVec2::ZERO;
-                continue;
-            }
-            let (v, f) = (state.v[i], self.external[i]);
-            self.force[i] += if starts {
-                f + mass[i] / dt * v
-            } else {
-                let d = self.last_x[i];
-                let inertia = 0.75 / (dt * dt) * d + (4.0 * v - self.last_v[i]) / (2.0 * dt);
-                2.0 * f - self.last_f[i] + mass[i] * inertia + damping[i] / (2.0 * dt) * d
-            };
+        let densities = self.solver.densities(system);
+        let (v, f) = (&state.v[..], &self.external[..]);
+        if self.starts {
+            each::weighted_onto(
+                densities,
+                [v, f],
+                &mut self.force,
+                move |[mass, _], [v, f], force| force + (f + mass / dt * v),
+            );
+        } else {
+            let from = [&self.last_x[..], v, &self.last_v, f, &self.last_f];
+            let (per_dt2, per_dt) = (0.75 / (dt * dt), 1.0 / (2.0 * dt));
+            each::weighted_onto(
+                densities,
+                from,
+                &mut self.force,
+                move |[mass, damping], [d, v, last_v, f, last_f], force| {
+                    let inertia = per_dt2 * d + (4.0 * v - last_v) * per_dt;
+                    force + ((2.0 * f - last_f + mass * inertia) + damping * per_dt * d)
+                },
+            );
         }
+        stepper::release(system.held(), &mut self.force);
     }
 }
 
@@ -111,16 +118,16 @@ impl Stepper for Sbdf2 {
             &mut self.solver
         };
         solver.solve(&mut self.force);
-        for i in 0..state.len() {
-            let step = self.force[i];
-            self.next_x[i] = state.x[i] + step;
-            self.next_v[i] = if starts {
-                step / dt
-            } else {
-                (3.0 * step - self.last_x[i]) / (2.0 * dt)
-            };
+        let from = [&state.x[..], &self.force, &self.last_x];
+        let to = [&mut self.next_x[..], &mut self.next_v];
+        let per_dt = if starts { 1.0 / dt } else { 1.0 / (2.0 * dt) };
+        let (now, before) = if starts { (1.0, 0.0) } else { (3.0, 1.0) };
+        let finite = each::both(from, to, move |[x, step, last]| {
+            (x + step, (now * step - before * last) * per_dt)
+        });
+        if !finite {
+            stepper::finite(&self.next_x)?;
         }
-        stepper::finite(&self.next_x)?;
         let moment = Moment {
             t: t + dt,
             dt,
@@ -130,9 +137,7 @@ impl Stepper for Sbdf2 {
         let touched = self
             .contacts
             .meet_with(system, moment, &state.x, x, v, Some(solver))?;
-        for i in 0..state.len() {
-            self.last_x[i] = x[i] - state.x[i];
-        }
+        each::onto([x, &state.x], &mut self.last_x, |[x, before], _| x - before);
         self.last_v.copy_from_slice(&state.v);
         if touched {
             for touch in &self.contacts.touches {

@@ -28,6 +28,8 @@ pub(crate) struct Solver {
     diagonal: Vec<f64>,
     /// The mass all nodes have, if it is the same.
     mass: Option<f64>,
+    /// The same for the damping.
+    damping: Option<f64>,
     /// Which nodes were in contact when `firm` was made.
     touching: Vec<bool>,
     pushed: Vec<bool>,
@@ -55,6 +57,7 @@ impl Solver {
             factor,
             diagonal,
             mass: each::common(system.mass()),
+            damping: each::common(system.damping()),
             touching: vec![false; n],
             pushed: vec![false; n],
             firm: None,
@@ -84,12 +87,25 @@ impl Solver {
         self.factor = self.matrix.factor().map_err(|_| stepper::unsolvable(x))?;
         self.firm = None;
         self.mass = each::common(system.mass());
+        self.damping = each::common(system.damping());
         Ok(())
     }
 
     /// The mass of each node, and the one they share, if they do.
-    pub(crate) fn masses<'a>(&self, system: &'a dyn System) -> (&'a [f64], Option<f64>) {
-        (system.mass(), self.mass)
+    pub(crate) fn masses<'a>(&self, system: &'a dyn System) -> ([&'a [f64]; 1], Option<[f64; 1]>) {
+        ([system.mass()], self.mass.map(|mass| [mass]))
+    }
+
+    /// Mass and damping of each node, and those they share, if they do.
+    pub(crate) fn densities<'a>(
+        &self,
+        system: &'a dyn System,
+    ) -> ([&'a [f64]; 2], Option<[f64; 2]>) {
+        let common = self
+            .mass
+            .zip(self.damping)
+            .map(|(mass, damping)| [mass, damping]);
+        ([system.mass(), system.damping()], common)
     }
 
     /// `S`.
