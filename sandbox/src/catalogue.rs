@@ -2,8 +2,9 @@
 
 use crate::Experiment;
 use crate::experiments::{
-    angle, apple, atlas, ball, corners, curvature, damping, decomposition, disc, ends, energy,
-    force_field, forces, matrix, profiles, rest_traps, signal, smoothing, soft, time_step, turning,
+    angle, apple, atlas, ball, corners, curvature, damping, damping_rules, decomposition, disc,
+    ends, energy, force_field, forces, matrix, profiles, rest_traps, signal, smoothing, soft,
+    time_step, turned_picture, turning,
 };
 
 /// Every experiment. A new one is added here and nowhere else.
@@ -23,6 +24,7 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &corners::CORNERS,
     &profiles::PROFILES,
     &damping::DAMPING,
+    &damping_rules::RULES_OF_DAMPING,
     &time_step::TIME_STEP,
     &smoothing::SMOOTHING,
     &signal::STEP,
@@ -57,6 +59,7 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &rest_traps::REST,
     &curvature::CURVATURE,
     &turning::TURNING,
+    &turned_picture::PICTURE,
 ];
 
 /// The experiment of that name.

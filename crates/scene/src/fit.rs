@@ -162,6 +162,7 @@ impl Fit {
             picture: Some(Arc::new(picture)),
             field,
             start: State::at_rest(x),
+            terms: None,
             company: None,
             snake,
             plan: Plan {

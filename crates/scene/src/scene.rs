@@ -7,7 +7,7 @@ use std::sync::Arc;
 use field::ForceField;
 use glam::DVec2;
 use integrator::{Scheme, SchemeError, Start, State};
-use snake::{Ledger, Outcome, Pace, Snake, Until};
+use snake::{Ledger, Outcome, Pace, Snake, Term, Turning, TurningStepper, Until};
 
 use crate::build::{USUAL_TOLERANCE, number};
 use crate::company::Company;
@@ -132,6 +132,8 @@ pub struct Scene {
     pub field: Option<Arc<ForceField>>,
     /// The snake.
     pub snake: Snake,
+    /// The inertial forces of a frame that turns by its own equation (report §5.2); None for any other frame.
+    pub terms: Option<Vec<Term>>,
     /// Whom it shares its world with, and how curves are kept in order.
     pub company: Option<Company>,
     /// Where it starts, and how fast.
@@ -231,6 +233,11 @@ impl Scene {
                                and would jump with it; leapfrog is the same motion and would do";
                 return Err(SceneError::key("run.scheme", message));
             }
+            if self.terms.is_some() {
+                let message =
+                    "\"auto\" is for frames without an equation of their own; a number would do";
+                return Err(SceneError::key("run.dt", message));
+            }
         }
         // sub-steps stay below the limit by themselves
         let force = plan.force || plan.tolerance.is_some();
@@ -254,8 +261,10 @@ impl Scene {
         }
         let plan = self.plan.clone();
         let mut state = self.start.clone();
-        let pace = pace(&plan, &mut self.snake, &state);
-        let mut pace = pace.map_err(|error| refused(&error))?;
+        let mut pace = match &self.terms {
+            None => pace(&plan, &mut self.snake, &state).map_err(|error| refused(&error))?,
+            Some(terms) => turning(&plan, &self.snake, &state, terms)?,
+        };
         let room = plan.room(state.len());
         let until = Until {
             steps: room,
@@ -319,6 +328,15 @@ fn pace(plan: &Plan, snake: &mut Snake, state: &State) -> Result<Pace, SchemeErr
     };
     let pace = Pace::chosen(plan.scheme, snake, state, plan.dt, tolerance)?;
     Ok(if plan.each { pace.each() } else { pace })
+}
+
+/// In a frame that turns by its own equation, with these inertial forces.
+fn turning(plan: &Plan, snake: &Snake, state: &State, terms: &[Term]) -> Result<Pace, SceneError> {
+    let turning = Turning::new(snake).map_err(|e| SceneError::key("snake.frame", e))?;
+    let missing = Term::ALL.iter().filter(|term| !terms.contains(term));
+    let turning = missing.fold(turning, |turning, &term| turning.without(term));
+    let stepper = TurningStepper::new(turning, plan.scheme, state, plan.dt, plan.start_rule);
+    Ok(Pace::Fixed(Box::new(stepper.map_err(|e| refused(&e))?)))
 }
 
 /// An error of the scheme, under the key it belongs to.

@@ -56,6 +56,7 @@ acceleration = [0.0, 0.0]
 §snake§
 nodes = 20
 topology = §topology§{ §ends§ head = §end§"free", tail = "free" }
+frame = §frame§§terms§§term§"turning"
 start = { §shape§ ellipse = { §ellipse§ center = [32.0, 32.0], axes = [9.0, 8.0] } }
 rest = { segment = { §segment§ from = [0.0, 0.0], to = [9.0, 0.0] } }
 [[also]]
@@ -120,7 +121,9 @@ fn known(place: &str) -> Vec<String> {
     // a word of the wrong spelling before the right one, a key before the others
     let wrong = match place {
         "rule" | "up" | "end" | "border" | "kind" => "\"zzz\" #",
-        "topology" => "\"zzz\" #",
+        "topology" | "frame" => "\"zzz\" #",
+        "terms" => "{ zzz = 1 } #",
+        "term" => "{ terms = [\"zzz\"] } #",
         "root" | "view" | "picture" | "drawn" | "field" | "snake" | "material" | "densities"
         | "schedule" | "world" | "wall" | "run" | "record" | "also" | "contact" | "upkeep" => {
             "zzz = 1"
@@ -164,7 +167,10 @@ fn known_of(kind: &str) -> Vec<String> {
     list.split(", ").map(str::to_owned).collect()
 }
 
-const PLACES: [&str; 35] = [
+const PLACES: [&str; 38] = [
+    "frame",
+    "terms",
+    "term",
     "also",
     "contact",
     "upkeep",

@@ -11,6 +11,7 @@ mod pressure;
 mod region;
 mod repulsor;
 mod spring;
+mod turned;
 
 pub use acting::Acting;
 pub use curve::Curve;
@@ -23,6 +24,7 @@ pub use pressure::Pressure;
 pub use region::RegionForce;
 pub use repulsor::Repulsor;
 pub use spring::Spring;
+pub use turned::Turned;
 
 use std::any::Any;
 use std::fmt;

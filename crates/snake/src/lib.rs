@@ -57,6 +57,7 @@ mod settling;
 mod snake;
 mod turn;
 mod turning;
+mod turning_stepper;
 mod wall;
 mod world;
 
@@ -68,7 +69,7 @@ pub use energy::Energies;
 pub use error::SnakeError;
 pub use force::{
     Acting, Curve, Force, Freeze, Gravity, ImageForce, Path, Pressure, Pull, RegionForce, Repulsor,
-    Sampling, SignedEdgeForce, Spring,
+    Sampling, SignedEdgeForce, Spring, Turned,
 };
 pub use ledger::Ledger;
 pub use pace::Pace;
@@ -79,6 +80,7 @@ pub use settling::{Settling, TimeToRest};
 pub use snake::Snake;
 pub use turn::Turn;
 pub use turning::{Term, Turning};
+pub use turning_stepper::TurningStepper;
 pub use wall::{Wall, WallLaw};
 pub use world::World;
 

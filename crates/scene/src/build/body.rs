@@ -5,12 +5,15 @@ use std::path::Path;
 use elastic::{Material, Profile, SpacingRule};
 use glam::DVec2;
 use integrator::State;
-use snake::{Body, Frame, Schedule, Schedules};
+use snake::{Body, Damping, Frame, Schedule, Schedules, Snake, Term};
 
 use super::shape::{self, nodes, topology};
 use super::{Rules, number, refused};
 use crate::SceneError;
-use crate::file::{ProfileText, Rule, SceneText};
+use crate::error::clip;
+use crate::file::{
+    DampingText, FrameText, FrameWord, InternalText, ProfileText, Rule, SceneText, TermText,
+};
 
 pub(crate) fn profile(key: &str, text: &ProfileText, n: usize) -> Result<Profile, SceneError> {
     match text {
@@ -138,20 +141,100 @@ pub(super) fn body(text: &SceneText, rules: Rules, folder: &Path) -> Result<Body
         Rule::Report => Frame::report(),
         Rule::Corrected => Frame::corrected(),
     };
+    let frame = match &text.snake.frame {
+        None | Some(FrameText::Word(FrameWord::Translating)) => frame,
+        Some(_) if rules.frame == Rule::Report => {
+            let message = "the report's frame does not turn; rules.frame = \"corrected\" would do";
+            return Err(SceneError::key("snake.frame", message));
+        }
+        Some(_) => Frame::turning(),
+    };
     let mut body = Body {
         topology,
         rest,
         spacing,
         material: material(text, n)?,
         mass: profile("densities.mass", &text.densities.mass, n)?,
-        damping: profile("densities.damping", &text.densities.damping, n)?,
-        internal: 0.0,
+        damping: match &text.densities.damping {
+            DampingText::Given(given) => profile("densities.damping", given, n)?,
+            DampingText::Rule(_) => Profile::Uniform(0.0),
+        },
+        internal: match &text.densities.internal {
+            Some(InternalText::Given(time)) => *time,
+            Some(InternalText::Rule(_)) | None => 0.0,
+        },
         frame,
         schedules: schedules(text)?,
     };
     body.validate().map_err(|e| refused(key, &e))?;
     body.recenter().map_err(|e| refused(key, &e))?;
     Ok(body)
+}
+
+/// Let the rules of `[densities]` choose the damping of a snake, which is at `start`.
+pub(super) fn damp(text: &SceneText, snake: &mut Snake, start: &State) -> Result<(), SceneError> {
+    let chosen = |key: &str, word: &str, inside: bool| -> Result<Damping, SceneError> {
+        let refuse = |message: String| SceneError::key(key, message);
+        let known = if inside {
+            "a time, \"critical\" or \"mode(k)\""
+        } else {
+            "a profile, \"critical\", \"mode(k)\", \"local\" or \"renewed(time)\""
+        };
+        let rule = match word.trim() {
+            "critical" => Damping::Mode(0),
+            other => other.parse().map_err(|_| {
+                refuse(format!(
+                    "there is no rule {:?}; {known} would do",
+                    clip(other)
+                ))
+            })?,
+        };
+        match (rule, inside) {
+            (Damping::Mode(mode), true) => Ok(Damping::InternalMode(mode)),
+            (Damping::Mode(_) | Damping::Local | Damping::Renewed(_), false) => Ok(rule),
+            _ => Err(refuse(format!(
+                "{rule} is no rule of this key; {known} would do"
+            ))),
+        }
+    };
+    let mut rules = Vec::new();
+    if let Some(InternalText::Rule(word)) = &text.densities.internal {
+        let key = "densities.internal";
+        rules.push((key, chosen(key, word, true)?));
+    }
+    if let DampingText::Rule(word) = &text.densities.damping {
+        let key = "densities.damping";
+        let rule = chosen(key, word, false)?;
+        if matches!(rule, Damping::Renewed(_)) && text.upkeep.is_some() {
+            let message = "nodes that come and go are damped as their neighbours are; with [upkeep] \"local\" would do";
+            return Err(SceneError::key(key, message));
+        }
+        rules.push((key, rule));
+    }
+    for (key, rule) in rules {
+        snake
+            .damp(rule, start)
+            .map_err(|e| SceneError::key(key, e))?;
+    }
+    Ok(())
+}
+
+/// The inertial forces of a frame that turns by its own equation; None for one that does not.
+pub(super) fn terms(text: &SceneText) -> Result<Option<Vec<Term>>, SceneError> {
+    let Some(FrameText::Terms(kept)) = &text.snake.frame else {
+        return Ok(None);
+    };
+    if !text.also.is_empty() || text.contact.is_some() || text.upkeep.is_some() {
+        let message =
+            "its own equations are for one snake that nothing looks after; \"turning\" would do";
+        return Err(SceneError::key("snake.frame", message));
+    }
+    let term = |text: &TermText| match text {
+        TermText::Centrifugal => Term::Centrifugal,
+        TermText::Coriolis => Term::Coriolis,
+        TermText::Transverse => Term::Transverse,
+    };
+    Ok(Some(kept.terms.iter().map(term).collect()))
 }
 
 pub(super) fn start(

@@ -54,7 +54,9 @@ pub(super) fn company(
             );
             world.map_err(within)?.0
         };
-        let snake = Snake::new(shape, surroundings).map_err(|e| within(refused("snake", &e)))?;
+        let mut snake =
+            Snake::new(shape, surroundings).map_err(|e| within(refused("snake", &e)))?;
+        body::damp(&own, &mut snake, &start).map_err(within)?;
         match &also.at {
             None => others.push((snake, start)),
             Some(places) => {

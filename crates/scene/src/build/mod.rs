@@ -13,7 +13,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::DVec2;
-use snake::{Snake, SnakeError};
+use snake::{Snake, SnakeError, Turning};
 
 pub use edge_field::Computing;
 pub(crate) use plan::USUAL_TOLERANCE;
@@ -96,7 +96,12 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         body.topology.is_closed(),
         &mut notes,
     )?;
-    let snake = Snake::new(body, world).map_err(|e| refused("snake", &e))?;
+    let mut snake = Snake::new(body, world).map_err(|e| refused("snake", &e))?;
+    body::damp(text, &mut snake, &start)?;
+    let terms = body::terms(text)?;
+    if terms.is_some() {
+        Turning::new(&snake).map_err(|e| SceneError::key("snake.frame", e))?;
+    }
     let company = company::company(text, rules, picture.as_ref(), &snake, folder)?;
     Ok(Scene {
         name: name.to_owned(),
@@ -107,6 +112,7 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         picture: picture.map(Arc::new),
         field,
         snake,
+        terms,
         company,
         start,
         plan,

@@ -19,10 +19,14 @@ pub(crate) struct CommonText {
     pub name: Option<String>,
     pub weight: Option<ProfileText>,
     pub schedule: Option<Vec<[f64; 2]>>,
+    /// Radians per unit of time.
+    pub spin: Option<f64>,
+    /// About what it spins.
+    pub about: Option<[f64; 2]>,
 }
 
 /// The names of those keys, and the one that says which kind.
-const COMMON: [&str; 4] = ["kind", "name", "weight", "schedule"];
+const COMMON: [&str; 6] = ["kind", "name", "weight", "schedule", "spin", "about"];
 
 macro_rules! kinds {
     ($($word:literal $variant:ident($text:ty)),* $(,)?) => {

@@ -94,6 +94,84 @@ impl<'de> Deserialize<'de> for TopologyText {
     }
 }
 
+/// Damping: a profile, or the word for a rule that chooses it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum DampingText {
+    Given(ProfileText),
+    Rule(String),
+}
+
+impl<'de> Deserialize<'de> for DampingText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match toml::Value::deserialize(deserializer)? {
+            toml::Value::String(word) => Ok(Self::Rule(word)),
+            other => inner(other).map(Self::Given),
+        }
+    }
+}
+
+/// Internal damping: a time, or the word for a rule that chooses it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum InternalText {
+    Given(f64),
+    Rule(String),
+}
+
+impl<'de> Deserialize<'de> for InternalText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match toml::Value::deserialize(deserializer)? {
+            toml::Value::String(word) => Ok(Self::Rule(word)),
+            toml::Value::Float(value) => Ok(Self::Given(value)),
+            toml::Value::Integer(value) => inner(toml::Value::Integer(value)).map(Self::Given),
+            other => Err(wrong("a time, \"critical\" or \"mode(k)\"", &other)),
+        }
+    }
+}
+
+/// The body frame: a word, or the inertial forces that its equations have.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum FrameText {
+    Word(FrameWord),
+    Terms(TermsText),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum FrameWord {
+    /// It moves with the body and keeps its direction.
+    Translating,
+    /// It turns too, to where the rest shape fits best.
+    Turning,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TermsText {
+    pub terms: Vec<TermText>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum TermText {
+    Centrifugal,
+    Coriolis,
+    Transverse,
+}
+
+impl<'de> Deserialize<'de> for FrameText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = toml::Value::deserialize(deserializer)?;
+        match value {
+            toml::Value::String(_) => inner(value).map(Self::Word),
+            toml::Value::Table(_) => inner(value).map(Self::Terms),
+            other => Err(wrong(
+                "\"translating\", \"turning\" or { terms = [\"centrifugal\", \"coriolis\", \"transverse\"] }",
+                &other,
+            )),
+        }
+    }
+}
+
 /// A step: a number, or the word for one chosen while it runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum StepText {

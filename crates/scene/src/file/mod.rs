@@ -11,7 +11,10 @@ use serde::Deserialize;
 
 pub(crate) use company::{AlsoText, ContactText, UpkeepText};
 pub(crate) use force::*;
-pub(crate) use forms::{OutputText, ProfileText, RulesText, StepText, TopologyText};
+pub(crate) use forms::{
+    DampingText, FrameText, FrameWord, InternalText, OutputText, ProfileText, RulesText, StepText,
+    TermText, TopologyText,
+};
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -247,6 +250,8 @@ pub(crate) struct SnakeText {
     /// Angular velocity about the center, radians per unit of time, from +x towards +y.
     #[serde(default)]
     pub spin: f64,
+    /// What the deformation is measured in.
+    pub frame: Option<FrameText>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -267,7 +272,9 @@ pub(crate) struct MaterialText {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct DensitiesText {
     pub mass: ProfileText,
-    pub damping: ProfileText,
+    pub damping: DampingText,
+    /// Damping inside the body.
+    pub internal: Option<InternalText>,
 }
 
 /// `[[time, factor], …]` for each parameter.

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use elastic::Profile;
 use field::{EdgeForce, FieldError, ForceField, Grid, MaskedImage, Smoothing};
 use glam::DVec2;
-use snake::{Acting, Gravity, ImageForce, Pressure, RegionForce, Sampling, World};
+use snake::{Acting, Gravity, ImageForce, Pressure, RegionForce, Sampling, Turned, World};
 
 use super::body::{profile, straight};
 use super::edge_field::{Computing, Wanted, edge_field};
@@ -289,10 +289,31 @@ fn acting(around: &Around<'_>, text: &ForceText) -> Result<Vec<Acting>, SceneErr
         let message = format!("coarse-to-fine has one of its own; its hold{hold} would do");
         return Err(SceneError::key(&format!("{key}: schedule"), message));
     }
-    let list = match &text.kind {
+    let mut list = match &text.kind {
         KindText::CoarseToFine(scales) => around.seen()?.coarse_to_fine(scales)?,
         kind => vec![around.force(kind)?],
     };
+    if let Some(rate) = text.common.spin {
+        if matches!(text.kind, KindText::CoarseToFine(_)) {
+            let message = "coarse-to-fine does not spin; edge would do";
+            return Err(SceneError::key(&format!("{key}: spin"), message));
+        }
+        let rate = number::coordinate(&format!("{key}: spin"), rate)?;
+        let about = match (text.common.about, around.sight) {
+            (Some(about), _) => number::place(&format!("{key}: about"), about)?,
+            (None, Some(sight)) => middle(sight.picture),
+            (None, None) => {
+                let message = "is missing, and there is no picture to spin about its middle; a place would do";
+                return Err(SceneError::key(&format!("{key}: about"), message));
+            }
+        };
+        for acting in &mut list {
+            *acting = Acting::new(Turned::new(acting.force().boxed(), about, rate));
+        }
+    } else if text.common.about.is_some() {
+        let message = "is of a force that spins; with it spin would do";
+        return Err(SceneError::key(&format!("{key}: about"), message));
+    }
     let weight = match &text.common.weight {
         Some(weight) => profile(&format!("{key}: weight"), weight, n)?,
         None => Profile::Uniform(1.0),
@@ -317,6 +338,12 @@ fn acting(around: &Around<'_>, text: &ForceText) -> Result<Vec<Acting>, SceneErr
         }
     };
     Ok(list.into_iter().map(finish).collect())
+}
+
+/// The middle of a picture.
+fn middle(picture: &Picture) -> DVec2 {
+    let (width, height) = picture.size();
+    0.5 * DVec2::new((width - 1) as f64, (height - 1) as f64)
 }
 
 /// Whether a kind is a force field that the picture has, whatever the curve.
