@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::contact::{Contacts, Moment, Pace};
 use crate::stepper::{self, Mass};
-use crate::{Fault, SchemeError, Start, State, Stepper, System};
+use crate::{Fault, SchemeError, Start, State, Stepper, System, each};
 
 /// Eq. 3.5 as the report's program computes it.
 ///
@@ -78,21 +78,25 @@ impl Stepper for Report {
                 self.previous[i] = state.x[i] - dt * state.v[i] + 0.5 * dt2 * push / mass[i];
             }
         }
-        for i in 0..state.len() {
-            let (mu, gamma) = (mass[i], damping[i]);
+        let shared = each::common(mass).zip(each::common(damping));
+        let step = move |[mu, gamma]: [f64; 2], [x, previous, external, elastic]: [f64; 4], _| {
             let alpha1 = 2.0 * mu / dt2 - gamma / dt;
             let alpha2 = gamma / dt - mu / dt2;
-            let sum = self.external[i]
-                + alpha1 * state.x[i]
-                + alpha2 * self.previous[i]
-                + self.elastic[i];
-            self.next[i] = if held[i] { state.x[i] } else { sum * dt2 / mu };
+            (external + alpha1 * x + alpha2 * previous + elastic) * dt2 / mu
+        };
+        let from = [&state.x[..], &self.previous, &self.external, &self.elastic];
+        let densities = ([mass, damping], shared.map(|(mu, gamma)| [mu, gamma]));
+        each::weighted_onto(densities, from, &mut self.next, step);
+        for (i, _) in held.iter().enumerate().filter(|(_, held)| **held) {
+            self.next[i] = state.x[i];
         }
         stepper::finite(&self.next)?;
         self.first = false;
-        for i in 0..state.len() {
-            self.backward[i] = (self.next[i] - state.x[i]) / dt;
-        }
+        each::onto(
+            [&self.next, &state.x],
+            &mut self.backward,
+            move |[next, x], _| (next - x) / dt,
+        );
         // where the nodes are now is the step before for the next one
         self.previous.copy_from_slice(&state.x);
         let moment = Moment {
