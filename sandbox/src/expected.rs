@@ -114,10 +114,15 @@ pub fn compare(experiment: &Experiment, record: &Record) -> Vec<Moved> {
 }
 
 fn compare_numbers(record: &Record, text: &str) -> Vec<String> {
+    // name, value, unit, tolerance: from the right, since only a name may have commas in it
     let rows: Vec<Vec<&str>> = text
         .lines()
         .skip(1)
-        .map(|line| line.split(',').collect())
+        .map(|line| line.rsplitn(4, ',').collect::<Vec<_>>())
+        .map(|mut row| {
+            row.reverse();
+            row
+        })
         .collect();
     let mut out = Vec::new();
     for number in &record.numbers {

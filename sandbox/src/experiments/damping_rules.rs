@@ -32,7 +32,7 @@ const RULES: [(&str, Damping, Color); 4] = [
     ("critical for the third", Damping::Mode(2), Color::SKY),
     ("critical for each node", Damping::Local, Color::RED),
     (
-        "internal, slowest mode",
+        "internal for the slowest mode",
         Damping::InternalMode(0),
         Color::PURPLE,
     ),
