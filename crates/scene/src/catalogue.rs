@@ -36,6 +36,8 @@ scenes![
     "apple-closed",
     "apple-report",
     "pile",
+    "gas-bag",
+    "two-cells",
     "rope",
     "funnel",
     "dented-ring",

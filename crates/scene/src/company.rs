@@ -147,6 +147,8 @@ fn refused(error: &CrowdError) -> SceneError {
                 "the damping of contacts" => "contact.damping",
                 "the friction of contacts" => "contact.friction",
                 "the friction at walls" => "contact.wall-friction",
+                "the adhesion of contacts" => "contact.adhesion",
+                "the range of adhesion" => "contact.range",
                 "the stick of contacts" => "contact.stick",
                 "the gap of contacts" => "contact.gap",
                 "the stop of contacts" => "contact.stop",

@@ -7,6 +7,8 @@
 
 mod contact;
 mod footing;
+mod glue;
+mod kick;
 mod upkeep;
 
 pub use contact::Contact;
@@ -20,8 +22,9 @@ use outline::OutlineError;
 use crate::rest::{Verdict, Watch};
 use crate::run::FAR;
 use crate::{Energies, Ledger, Pace, Rest, Snake, SnakeError};
-use contact::{Half, Meetings};
+use contact::Meetings;
 use footing::Footings;
+use kick::Half;
 
 /// One snake of a crowd.
 #[derive(Debug)]
@@ -188,7 +191,13 @@ impl Crowd {
         let least = masses.copied().fold(f64::INFINITY, f64::min);
         if let Some(contact) = &crowd.contact {
             contact.validate()?;
-            crowd.cut(contact.step_limit(least))?;
+            let edges = snakes.iter().flat_map(|(snake, state)| {
+                let spacing = snake.body().spacing;
+                let pairs = state.x.windows(2);
+                pairs.map(move |p| p[0].distance(p[1]) / spacing)
+            });
+            let stretch = edges.fold(0.0, f64::max);
+            crowd.cut(contact.step_limit(least, stretch))?;
         }
         for (member, (snake, state)) in snakes.into_iter().enumerate() {
             // sub-steps stay below the limit by themselves

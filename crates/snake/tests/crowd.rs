@@ -19,6 +19,8 @@ const LAYER: Contact = Contact {
     friction: 0.0,
     wall_friction: 0.0,
     stick: 1.0,
+    adhesion: 0.0,
+    range: 0.0,
     gap: 0.2,
     stop: 0.3,
     own: false,

@@ -21,6 +21,8 @@ const ROUGH: Contact = Contact {
     friction: ETA,
     wall_friction: ETA,
     stick: 1.0,
+    adhesion: 0.0,
+    range: 0.0,
     gap: 0.15,
     stop: 0.2,
     own: false,

@@ -130,6 +130,8 @@ fn contact(text: &ContactText) -> Contact {
         friction: text.friction,
         wall_friction: text.wall_friction,
         stick: text.stick,
+        adhesion: text.adhesion,
+        range: text.range,
         gap: text.gap,
         stop: text.stop,
         own: text.own,

@@ -33,6 +33,10 @@ pub(crate) struct ContactText {
     #[serde(default = "whole")]
     pub stick: f64,
     #[serde(default)]
+    pub adhesion: f64,
+    #[serde(default)]
+    pub range: f64,
+    #[serde(default)]
     pub gap: f64,
     pub stop: f64,
     #[serde(default)]

@@ -1,9 +1,10 @@
 //! Snakes that touch: a stiff layer with damping and friction around every curve.
 
 use glam::DVec2;
-use integrator::System;
 use outline::{Near, Neighbours};
 
+use super::glue::Glue;
+use super::kick::{Half, Turn, brake, push};
 use super::{CrowdError, Member};
 use crate::SnakeError;
 use crate::error::finite_at_least;
@@ -19,6 +20,16 @@ use crate::error::finite_at_least;
 /// in by at most `v √(μ/k)`; with a body behind it it goes deeper, until at `stop` an impulse takes all that is left of the
 /// approach. So the overlap stays below `stop` by more than the way of one step only where more bodies push
 /// than a few rounds of impulses can settle.
+///
+/// *Adhesion* makes curves share a border: either side has the energy `φ` per length of curve as it is,
+///
+/// ```text
+/// φ = −W/2 (1 − u²)²,   u = (distance − gap) / range, at least 0            E = Σ l φ
+/// ```
+///
+/// so at rest they lie a gap apart, and the tension of a shared border is less by W than that of both curves alone. Where two equal
+/// bags of tension T part, each is bent by θ from the border with `cos θ = 1 − W / 2T` (Young's equation, \[young05\]).
+/// A node near several curves adheres to the one that holds it most.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
     /// k. M T⁻².
@@ -34,6 +45,11 @@ pub struct Contact {
     pub stick: f64,
     /// Curves push each other from this distance on. L. Open ones, which have no inside, need some.
     pub gap: f64,
+    /// W: energy that two curves gain per length of border that they share. They are drawn to each other within the range
+    /// beyond the gap. M L² T⁻².
+    pub adhesion: f64,
+    /// How far beyond the gap adhesion reaches. L.
+    pub range: f64,
     /// Overlap at which the approach ends. L.
     pub stop: f64,
     /// Whether far stretches of the same curve push each other too, from the gap on.
@@ -48,23 +64,23 @@ const ROUNDS: usize = 8;
 
 /// A node and the edge it meets.
 #[derive(Debug, Clone, Copy)]
-struct Meeting {
-    curve: usize,
-    node: usize,
-    other: usize,
+pub(super) struct Meeting {
+    pub curve: usize,
+    pub node: usize,
+    pub other: usize,
     /// The edge's two nodes and the share of the second.
-    ends: [usize; 2],
-    along: f64,
+    pub ends: [usize; 2],
+    pub along: f64,
     /// Above 0.
-    depth: f64,
+    pub depth: f64,
     /// How much of the depth pushes: all but what came by a jump.
-    felt: f64,
+    pub felt: f64,
     /// From the edge to where the node should be.
-    way: DVec2,
+    pub way: DVec2,
     /// From the point of the edge to the node.
-    apart: DVec2,
+    pub apart: DVec2,
     /// ξ: how far friction has been stretched, along `way.perp()`.
-    slip: f64,
+    pub slip: f64,
 }
 
 /// All meetings of a moment.
@@ -76,6 +92,7 @@ pub(super) struct Meetings {
     /// The list of the step before, in the same order: by curve, node and other curve.
     before: Vec<Meeting>,
     kicked: Vec<bool>,
+    glue: Glue,
     push: Vec<Vec<DVec2>>,
 }
 
@@ -92,6 +109,8 @@ impl Contact {
             ("the damping of contacts", self.damping),
             ("the friction of contacts", self.friction),
             ("the friction at walls", self.wall_friction),
+            ("the adhesion of contacts", self.adhesion),
+            ("the range of adhesion", self.range),
             ("the gap of contacts", self.gap),
         ] {
             finite_at_least(name, 0.0, "at least 0", value)?;
@@ -115,12 +134,17 @@ impl Contact {
         }
     }
 
-    /// The largest step where no node has less mass than `least`: a node pushed from two sides, by its own layer and
-    /// the other's, on both.
-    pub(super) fn step_limit(&self, least: f64) -> f64 {
+    /// The largest step where no node has less mass than `least` and no edge is longer than `stretch` times its
+    /// spacing: a node pushed from two sides, by its own layer and the other's, on both.
+    pub(super) fn step_limit(&self, least: f64, stretch: f64) -> f64 {
+        let glue = if self.adheres() {
+            4.0 * self.adhesion * stretch / (self.range * self.range)
+        } else {
+            0.0
+        };
         // half a kick twice a step is the leapfrog: dt² k/μ < 4, with k up to eight times as large; what sticks is
         // no stiffer, across
-        (4.0 * least / (8.0 * self.stiffness)).sqrt()
+        (4.0 * least / (8.0 * (self.stiffness + glue))).sqrt()
     }
 }
 
@@ -141,7 +165,11 @@ impl Meetings {
         self.list.clear();
         self.kicked.clear();
         self.kicked.resize(members.len(), false);
-        let reach = contact.gap.max(FOUND * contact.stop);
+        let mut reach = contact.gap.max(FOUND * contact.stop);
+        if contact.adheres() {
+            reach = reach.max(contact.gap + contact.range);
+            self.glue.clear(members);
+        }
         let curves = members.iter().map(|m| (&m.state.x[..], m.is_closed()));
         self.neighbours
             .rebuild(curves, reach)
@@ -176,8 +204,12 @@ impl Meetings {
                         (near.distance, away.try_normalize().unwrap_or(near.outward))
                     };
                     let depth = contact.gap - distance;
+                    let n = other.state.len();
+                    if contact.adheres() && !own {
+                        let ends = [near.spot.edge, (near.spot.edge + 1) % n];
+                        self.glue.see(contact, node, near, ends, distance, way);
+                    }
                     if depth > 0.0 {
-                        let n = other.state.len();
                         self.list.push(Meeting {
                             curve,
                             node,
@@ -192,6 +224,9 @@ impl Meetings {
                         });
                     }
                 }
+            }
+            if contact.adheres() {
+                self.glue.gather(curve, members);
             }
         }
         self.found = found;
@@ -258,6 +293,9 @@ impl Meetings {
         self.kicked.fill(false);
         let mut lost = 0.0;
         for turn in half.turns() {
+            if matches!(turn, Turn::Push) && contact.adheres() {
+                self.glue.kick(members, time, &mut self.kicked);
+            }
             for m in &self.list {
                 match turn {
                     Turn::Push => push(contact, members, m, time),
@@ -299,6 +337,9 @@ impl Meetings {
             self.push[m.other][m.ends[0]] -= share * (1.0 - m.along) * force;
             self.push[m.other][m.ends[1]] -= share * m.along * force;
         }
+        if contact.adheres() {
+            self.glue.add_forces(members, &mut self.push);
+        }
         &mut self.push
     }
 
@@ -308,7 +349,12 @@ impl Meetings {
             let held = contact.stick * m.slip * m.slip;
             members[m.curve].snake.body().spacing * (m.felt * m.felt + held)
         };
-        0.5 * contact.stiffness * self.list.iter().map(each).sum::<f64>()
+        let glue = if contact.adheres() {
+            self.glue.energy()
+        } else {
+            0.0
+        };
+        0.5 * contact.stiffness * self.list.iter().map(each).sum::<f64>() + glue
     }
 
     /// How deep in the layer the deepest node is.
@@ -317,118 +363,8 @@ impl Meetings {
     }
 }
 
-/// What a meeting acts on.
-struct Lever {
-    /// Velocities a unit impulse gives to the node and, per share, to the edge's.
-    own: f64,
-    theirs: [f64; 2],
-    shares: [f64; 2],
-    /// Change of the relative velocity by a unit impulse.
-    total: f64,
-    /// Length of curve that the node stands for.
-    length: f64,
-}
-
-impl Lever {
-    /// None where nothing can move.
-    fn of(m: &Meeting, members: &[Member]) -> Option<Self> {
-        let lightness = |curve: usize, node: usize| {
-            let member = &members[curve];
-            if member.snake.held()[node] {
-                0.0
-            } else {
-                1.0 / member.mass(node)
-            }
-        };
-        let shares = [1.0 - m.along, m.along];
-        let own = lightness(m.curve, m.node);
-        let theirs = m.ends.map(|node| lightness(m.other, node));
-        let total = own + shares[0] * shares[0] * theirs[0] + shares[1] * shares[1] * theirs[1];
-        let length = members[m.curve].snake.body().spacing;
-        (total > 0.0).then_some(Self {
-            own,
-            theirs,
-            shares,
-            total,
-            length,
-        })
-    }
-
-    fn give(&self, m: &Meeting, members: &mut [Member], impulse: DVec2) {
-        members[m.curve].state.v[m.node] += self.own * impulse;
-        for k in 0..2 {
-            members[m.other].state.v[m.ends[k]] -= self.shares[k] * self.theirs[k] * impulse;
-        }
-    }
-}
-
-/// The springs of one meeting, for that long.
-fn push(contact: &Contact, members: &mut [Member], m: &Meeting, time: f64) {
-    if let Some(lever) = Lever::of(m, members) {
-        let hold = contact.stick * m.slip * m.way.perp();
-        let force = contact.stiffness * lever.length * (m.felt * m.way - hold);
-        lever.give(m, members, time * force);
-    }
-}
-
-/// Damping and friction of one meeting for that long, or the end of an approach at once; what they take.
-fn brake(contact: &Contact, members: &mut [Member], m: &Meeting, time: f64) -> f64 {
-    let Some(lever) = Lever::of(m, members) else {
-        return 0.0;
-    };
-    let (total, length) = (lever.total, lever.length);
-    let relative = relative(m, members);
-    let normal = relative.dot(m.way);
-    let push = contact.stiffness * m.felt * length * time;
-    // the damper never pulls curves together, nor turns their motion round
-    let damp = -contact.damping * length * time * normal;
-    let most = normal.abs() / total;
-    let mut damp = damp.clamp(-most, most).max(-push);
-    if m.depth > contact.gap + contact.stop {
-        // whatever is left of the approach
-        damp = damp.max(-normal / total);
-    }
-    let across = m.way.perp();
-    let slip = relative.dot(across);
-    let most = contact.friction * (push + damp);
-    let rub = if contact.stick > 0.0 && time > 0.0 {
-        let hold = -contact.stick * contact.stiffness * m.slip * length * time;
-        let brake = (contact.damping * length * time).min(1.0 / total);
-        (hold - brake * slip).clamp(-most, most) - hold
-    } else {
-        -slip.clamp(-most * total, most * total) / total
-    };
-    let taken = damp * m.way + rub * across;
-    lever.give(m, members, taken);
-    -taken.dot(relative + 0.5 * total * taken)
-}
-
-/// Which half of the pushes around a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Half {
-    First,
-    Second,
-}
-
-/// What is done in a half.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Turn {
-    Push,
-    Brake,
-}
-
-impl Half {
-    /// The second half is the first backwards.
-    pub(super) const fn turns(self) -> [Turn; 2] {
-        match self {
-            Self::First => [Turn::Brake, Turn::Push],
-            Self::Second => [Turn::Push, Turn::Brake],
-        }
-    }
-}
-
 /// Velocity of the node against the edge.
-fn relative(m: &Meeting, members: &[Member]) -> DVec2 {
+pub(super) fn relative(m: &Meeting, members: &[Member]) -> DVec2 {
     let v = |curve: usize, node: usize| members[curve].state.v[node];
     v(m.curve, m.node) - (1.0 - m.along) * v(m.other, m.ends[0]) - m.along * v(m.other, m.ends[1])
 }

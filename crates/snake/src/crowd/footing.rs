@@ -3,7 +3,7 @@
 use glam::DVec2;
 use integrator::System;
 
-use super::contact::{Half, Turn};
+use super::kick::{Half, Turn};
 use super::{Contact, Member};
 use crate::{Wall, WallLaw};
 
