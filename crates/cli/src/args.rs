@@ -116,6 +116,9 @@ pub(crate) struct Field {
     /// The stages, and the field of every kind.
     #[arg(long, conflicts_with = "kind")]
     pub all: bool,
+    /// The closed contour that regions compare the inside and the outside of; a circle in the middle if not given.
+    #[arg(long, value_name = "CONTOUR")]
+    pub from: Option<PathBuf>,
 }
 
 #[derive(Debug, ClapArgs)]

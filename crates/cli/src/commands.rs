@@ -123,10 +123,13 @@ pub(crate) fn field(args: &args::Field) -> Answer {
     if args.all {
         kinds = Fields::every_kind();
     }
+    let curve = args.from.as_deref().map(Contour::load).transpose()?;
+    let curve = curve.map(|contour| contour.points);
     let fields = Fields {
         stages: args.all || args.kind.is_empty(),
         smoothing,
         kinds,
+        curve,
     };
     let mut text = String::new();
     for file in fields.write(&picture, &args.out)? {

@@ -24,25 +24,29 @@ pub fn squared_distance(edges: &Array2<bool>) -> Grid {
     let mut envelope = Envelope::default();
     for mut column in distance.columns_mut() {
         let line = column.to_vec();
-        envelope.transform(&line, |i, d| column[i] = d);
+        envelope.transform(&line, |i, d, _| column[i] = d);
     }
     for mut row in distance.rows_mut() {
         let line = row.to_vec();
-        envelope.transform(&line, |i, d| row[i] = d);
+        envelope.transform(&line, |i, d, _| row[i] = d);
     }
     distance
 }
 
 /// The parabolas that are lowest somewhere, and where each begins to be.
 #[derive(Debug, Default)]
-struct Envelope {
+pub(crate) struct Envelope {
     vertex: Vec<usize>,
     from: Vec<f64>,
 }
 
 impl Envelope {
-    /// `put(x, min over q of line[q] + (x − q)²)` for every x.
-    fn transform(&mut self, line: &[f64], mut put: impl FnMut(usize, f64)) {
+    /// `put(x, min over q of line[q] + (x − q)², the q)` for every x.
+    pub(crate) fn transform(
+        &mut self,
+        line: &[f64],
+        mut put: impl FnMut(usize, f64, Option<usize>),
+    ) {
         let (vertex, from) = (&mut self.vertex, &mut self.from);
         vertex.clear();
         from.clear();
@@ -70,13 +74,12 @@ impl Envelope {
             while from.get(k + 1).is_some_and(|&next| next < x as f64) {
                 k += 1;
             }
-            put(
-                x,
-                vertex.get(k).map_or(f64::INFINITY, |&v| {
-                    let d = x as f64 - v as f64;
-                    line[v] + d * d
-                }),
-            );
+            let vertex = vertex.get(k).copied();
+            let distance = vertex.map_or(f64::INFINITY, |v| {
+                let d = x as f64 - v as f64;
+                line[v] + d * d
+            });
+            put(x, distance, vertex);
         }
     }
 }

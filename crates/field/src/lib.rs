@@ -19,7 +19,7 @@
 //! | a schedule from coarse to fine | [`coarse_to_fine`] |
 //! | edges to a fraction of a pixel | [`edge_points`] |
 //! | noise, contrast and blur of a picture | [`image_scale`] |
-//! | a longer reach | [`distance_force`], [`vector_flow`] (GVF), [`vector_convolution`] (VFC) |
+//! | a longer reach | [`distance_force`], [`point_distance_force`], [`vector_flow`] (GVF), [`vector_convolution`] (VFC) |
 //!
 //! All but those that ask for the curve give a [`ForceField`], which is sampled between pixel centers: bilinear, bicubic, with
 //! its slope, or by the report's rule. [`signal`] is the chapter's one-dimensional part, [`literal`] the slow twin
@@ -58,6 +58,7 @@ mod grid;
 pub mod literal;
 mod masked;
 mod measure;
+mod points;
 mod polarity;
 mod region;
 mod report;
@@ -79,6 +80,7 @@ pub use gradient::{Across, mask_x, mask_y};
 pub use grid::{Grid, LARGEST_PIXEL, LARGEST_SIGMA, MOST_PASSES};
 pub use masked::MaskedImage;
 pub use measure::{ImageScale, image_scale, noise_sigma};
+pub use points::{distance_to_points, point_distance_force};
 pub use polarity::{Polarity, SignedEdge};
 pub use region::{
     Classes, Density, LikelihoodRegions, LocalRegions, MOST_CLASS_BYTES, MOST_CLASSES, Means,

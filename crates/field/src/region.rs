@@ -30,11 +30,24 @@ use std::fmt::Debug;
 ///
 /// A picture is prepared once and shared by all copies. Curves of fewer than three nodes enclose nothing.
 pub trait Region: Debug + Send + Sync {
-    /// Force density along the outward normal at each node; overwrites `push`.
+    /// Force density along the outward normal where `polygon` is the curve and its border passed through each of `points`; overwrites
+    /// `push`.
     ///
-    /// The shorter of `polygon` and `push` says for how many nodes. A node that is no place (NaN) may make every push NaN.
-    /// Allocates nothing once `scratch` has grown to its size.
-    fn push_into(&self, polygon: &[DVec2], scratch: &mut RegionScratch, push: &mut [f64]);
+    /// At the polygon's own nodes it is what they feel; at all pixels, a map of what would join the inside (above 0) and what would leave it.
+    /// The shorter of `points` and `push` says for how many. A place that is none (NaN) may make every push NaN. Allocates nothing once
+    /// `scratch` has grown to its size.
+    fn push_at(
+        &self,
+        polygon: &[DVec2],
+        points: &[DVec2],
+        scratch: &mut RegionScratch,
+        push: &mut [f64],
+    );
+
+    /// [`Region::push_at`] the nodes.
+    fn push_into(&self, polygon: &[DVec2], scratch: &mut RegionScratch, push: &mut [f64]) {
+        self.push_at(polygon, polygon, scratch, push);
+    }
 
     /// The energy whose derivative by the normal motion of the curve is minus the push; `None` if there is none.
     fn energy(&self, polygon: &[DVec2]) -> Option<f64>;

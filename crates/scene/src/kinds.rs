@@ -132,6 +132,12 @@ impl ForceChoice {
         force::is_field(&self.0.kind)
     }
 
+    /// Whether it compares what a curve encloses with the rest: given a curve, it is a push at every pixel.
+    #[must_use]
+    pub const fn is_region(&self) -> bool {
+        force::is_region(&self.0.kind)
+    }
+
     /// The name of its kind.
     #[must_use]
     pub const fn kind(&self) -> &'static str {

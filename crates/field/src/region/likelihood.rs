@@ -155,9 +155,15 @@ impl LikelihoodRegions {
 }
 
 impl Region for LikelihoodRegions {
-    fn push_into(&self, polygon: &[DVec2], scratch: &mut RegionScratch, push: &mut [f64]) {
+    fn push_at(
+        &self,
+        polygon: &[DVec2],
+        points: &[DVec2],
+        scratch: &mut RegionScratch,
+        push: &mut [f64],
+    ) {
         self.table(polygon, scratch);
-        for (push, &p) in push.iter_mut().zip(polygon) {
+        for (push, &p) in push.iter_mut().zip(points) {
             *push = self.counted.at(p, &scratch.table);
         }
     }

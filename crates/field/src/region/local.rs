@@ -82,7 +82,13 @@ impl LocalRegions {
 }
 
 impl Region for LocalRegions {
-    fn push_into(&self, polygon: &[DVec2], scratch: &mut RegionScratch, push: &mut [f64]) {
+    fn push_at(
+        &self,
+        polygon: &[DVec2],
+        points: &[DVec2],
+        scratch: &mut RegionScratch,
+        push: &mut [f64],
+    ) {
         scratch
             .crossings
             .fill(polygon, self.whole.rows().image.dim());
@@ -91,7 +97,7 @@ impl Region for LocalRegions {
         } else {
             1.0
         };
-        for (push, &p) in push.iter_mut().zip(polygon) {
+        for (push, &p) in push.iter_mut().zip(points) {
             let (disk, signed) = self.disk(p, scratch);
             let mut inside = Inside::default();
             inside.add(sign, signed);

@@ -97,9 +97,15 @@ impl TwoRegions {
 }
 
 impl Region for TwoRegions {
-    fn push_into(&self, polygon: &[DVec2], _: &mut RegionScratch, push: &mut [f64]) {
+    fn push_at(
+        &self,
+        polygon: &[DVec2],
+        points: &[DVec2],
+        _: &mut RegionScratch,
+        push: &mut [f64],
+    ) {
         let (inside, outside) = self.both(self.rows.inside(polygon));
-        for (push, &p) in push.iter_mut().zip(polygon) {
+        for (push, &p) in push.iter_mut().zip(points) {
             *push = self.push(p, inside, outside);
         }
     }

@@ -1,20 +1,32 @@
-//! One page with everything side by side: no script, no file beside it.
+//! One page with everything side by side: no script, and small copies of the pictures in it; each leads to the picture itself.
 
 use std::fmt::Write as _;
 
-use image::RgbImage;
+use image::{RgbImage, codecs::jpeg::JpegEncoder};
 
 use crate::{SceneError, paint};
 
-/// The longest side of a picture on the page, in pixels.
-const LONGEST: u32 = 640;
+/// The longest side of a picture on the page, in pixels: as wide as it is shown.
+const LONGEST: u32 = 320;
+
+/// Of 100; what is lost is not seen at that size, and the picture itself stands beside.
+const QUALITY: u8 = 85;
 
 /// Pictures under a heading.
 #[derive(Debug, Default)]
 pub(super) struct Part {
     pub title: String,
     pub note: String,
-    figures: Vec<(String, Vec<u8>)>,
+    figures: Vec<Copy>,
+}
+
+/// A small copy of a picture.
+#[derive(Debug)]
+struct Copy {
+    caption: String,
+    file: String,
+    kind: &'static str,
+    bytes: Vec<u8>,
 }
 
 impl Part {
@@ -26,12 +38,36 @@ impl Part {
         }
     }
 
-    /// Keep a small copy of a picture.
-    pub(super) fn show(&mut self, caption: &str, image: &RgbImage) -> Result<(), SceneError> {
+    /// Keep a small copy of the picture in `file`: in whichever format takes fewer bytes.
+    pub(super) fn show(
+        &mut self,
+        file: &str,
+        caption: &str,
+        image: &RgbImage,
+    ) -> Result<(), SceneError> {
         let small = paint::shrunk(image, LONGEST);
-        self.figures.push((caption.to_owned(), paint::png(&small)?));
+        let (png, jpeg) = (paint::png(&small)?, jpeg(&small)?);
+        let (kind, bytes) = if png.len() <= jpeg.len() {
+            ("png", png)
+        } else {
+            ("jpeg", jpeg)
+        };
+        self.figures.push(Copy {
+            caption: caption.to_owned(),
+            file: file.to_owned(),
+            kind,
+            bytes,
+        });
         Ok(())
     }
+}
+
+fn jpeg(image: &RgbImage) -> Result<Vec<u8>, SceneError> {
+    let mut bytes = Vec::new();
+    JpegEncoder::new_with_quality(&mut bytes, QUALITY)
+        .encode_image(image)
+        .map_err(|error| SceneError::key("JPEG", error))?;
+    Ok(bytes)
 }
 
 const STYLE: &str = "
@@ -54,12 +90,15 @@ pub(super) fn page(title: &str, parts: &[Part]) -> String {
         let (heading, note) = (escaped(&part.title), escaped(&part.note));
         // writing to a String cannot fail
         let _ = writeln!(text, "<h2>{heading}</h2>\n<p>{note}</p>\n<div>");
-        for (caption, png) in &part.figures {
+        for copy in &part.figures {
             let _ = writeln!(
                 text,
-                "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>",
-                escaped(caption),
-                base64(png)
+                "<figure><a href=\"{file}\"><img alt=\"{caption}\" src=\"data:image/{kind};base64,{bytes}\"></a>\
+                 <figcaption>{caption}</figcaption></figure>",
+                file = escaped(&copy.file),
+                caption = escaped(&copy.caption),
+                kind = copy.kind,
+                bytes = base64(&copy.bytes)
             );
         }
         text.push_str("</div>\n");
@@ -115,10 +154,24 @@ mod tests {
     #[test]
     fn a_page_needs_nothing_beside_it_and_shows_text_as_text() {
         let mut part = Part::new("a < b", "\"q\" & so on".to_owned());
-        part.show("x", &RgbImage::new(2, 2)).unwrap();
+        part.show("x.png", "x", &RgbImage::new(2, 2)).unwrap();
         let text = page("<script>", &[part]);
         assert!(text.contains("<h2>a &lt; b</h2>") && text.contains("&quot;q&quot; &amp; so on"));
         assert!(!text.contains("<script") && !text.contains("http"));
+        assert!(text.contains("<a href=\"x.png\"><img"));
         assert!(text.contains("src=\"data:image/png;base64,iVBORw0KGgo"));
+    }
+
+    #[test]
+    fn a_large_picture_is_a_small_one_on_the_page() {
+        let mut part = Part::new("a", String::new());
+        // as many colors as a photograph has
+        let noisy = RgbImage::from_fn(1500, 900, |x, y| {
+            let mixed = x.wrapping_mul(2_654_435_761) ^ y.wrapping_mul(40_503);
+            image::Rgb([mixed >> 8, mixed >> 16, x + y].map(|v| v.to_le_bytes()[0]))
+        });
+        part.show("a.png", "a", &noisy).unwrap();
+        // 320 × 192 pixels
+        assert!(page("a", &[part]).len() < 320 * 192);
     }
 }

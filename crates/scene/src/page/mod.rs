@@ -4,7 +4,7 @@ mod html;
 
 use std::path::{Path, PathBuf};
 
-use field::{EdgeForce, ForceField, Grid, Smoothing};
+use field::{EdgeForce, ForceField, Grid, Region, RegionScratch, Smoothing};
 use glam::DVec2;
 use html::Part;
 use image::RgbImage;
@@ -21,18 +21,20 @@ pub struct Fields {
     pub stages: bool,
     /// Smoothing of these stages.
     pub smoothing: Smoothing,
-    /// And the field of each of these kinds.
+    /// And the field of each of these kinds; of a kind of region, its push at every pixel.
     pub kinds: Vec<ForceChoice>,
+    /// The curve for regions; a circle in the middle unless given.
+    pub curve: Option<Vec<DVec2>>,
 }
 
 impl Fields {
-    /// Every kind that is a field, with its usual numbers.
+    /// Every kind that is a field or a region, with its usual numbers.
     #[must_use]
     pub fn every_kind() -> Vec<ForceChoice> {
         FORCES
             .iter()
             .filter_map(|kind| ForceChoice::parse(kind.name).ok())
-            .filter(ForceChoice::is_field)
+            .filter(|choice| choice.is_field() || choice.is_region())
             .collect()
     }
 
@@ -49,17 +51,28 @@ impl Fields {
             Smoothing::Gaussian(_) => "--sigma",
         };
         let smoothing = build::smoothing(flag, self.smoothing, picture.size())?;
-        if let Some(choice) = self.kinds.iter().find(|choice| !choice.is_field()) {
-            let fields = FORCES.iter().map(|kind| kind.name);
-            let fields: Vec<&str> = fields
-                .filter(|name| ForceChoice::parse(name).is_ok_and(|choice| choice.is_field()))
+        let shown = |choice: &ForceChoice| choice.is_field() || choice.is_region();
+        if let Some(choice) = self.kinds.iter().find(|choice| !shown(choice)) {
+            let kinds = FORCES.iter().map(|kind| kind.name);
+            let kinds: Vec<&str> = kinds
+                .filter(|name| ForceChoice::parse(name).is_ok_and(|choice| shown(&choice)))
                 .collect();
             let message = format!(
-                "{} is no field of the picture alone; one of {} would do",
+                "{} is no field of the picture; one of {} would do",
                 choice.kind(),
-                fields.join(", ")
+                kinds.join(", ")
             );
             return Err(SceneError::key("--kind", message));
+        }
+        let curve = self.curve.clone().unwrap_or_else(|| {
+            let (width, height) = picture.size();
+            let middle = 0.5 * (DVec2::new(width as f64, height as f64) - 1.0);
+            elastic::circle(middle, (0.3 * width.min(height) as f64).max(1.0), 120)
+        });
+        if let Some(message) = build::outside(&curve, picture, 0.5)
+            && self.curve.is_some()
+        {
+            return Err(SceneError::key("--from", format!("point {message}")));
         }
         let sight = Sight::of(picture)?;
         ready_folder(folder)?;
@@ -90,12 +103,16 @@ impl Fields {
                 0 => choice.kind().to_owned(),
                 again => format!("{}-{}", choice.kind(), again + 1),
             };
-            let Some(made) = sight.field("--kind", &choice.0.kind)? else {
-                continue;
-            };
             let known = FORCES.iter().find(|kind| kind.name == choice.kind());
             let (summary, energy) = known.map_or(("", ""), |kind| (kind.summary, kind.energy));
             let note = format!("{summary}; energy: {energy}");
+            if let Some(region) = sight.region("--kind", &choice.0.kind)? {
+                sheet.push(&name, &note, &*region, &curve)?;
+                continue;
+            }
+            let Some(made) = sight.field("--kind", &choice.0.kind)? else {
+                continue;
+            };
             sheet.force(&name, &note, &made.field, made.energy.as_ref())?;
         }
         sheet.end()
@@ -116,10 +133,11 @@ impl Sheet<'_> {
     }
 
     fn show(&mut self, name: &str, caption: &str, image: &RgbImage) -> Result<(), SceneError> {
+        let file = format!("{name}.png");
         if let Some(part) = self.parts.last_mut() {
-            part.show(caption, image)?;
+            part.show(&file, caption, image)?;
         }
-        self.keep(&format!("{name}.png"), &paint::png(image)?)
+        self.keep(&file, &paint::png(image)?)
     }
 
     fn keep(&mut self, name: &str, bytes: &[u8]) -> Result<(), SceneError> {
@@ -233,6 +251,41 @@ impl Sheet<'_> {
         }
         self.keep(&format!("{name}.npy"), &npy(&[&x, &y]))?;
         self.keep(&format!("{name}.tiff"), &float_tiff(&[&x, &y])?)
+    }
+
+    /// What a region would do with each pixel, as a picture with the curve and as numbers.
+    fn push(
+        &mut self,
+        name: &str,
+        note: &str,
+        region: &dyn Region,
+        curve: &[DVec2],
+    ) -> Result<(), SceneError> {
+        let (width, height) = self.picture.size();
+        let mut push = Grid::zeros((height, width));
+        let mut scratch = RegionScratch::default();
+        let (mut points, mut row_of) = (vec![DVec2::ZERO; width], vec![0.0; width]);
+        for (y, mut row) in push.rows_mut().into_iter().enumerate() {
+            for (x, p) in points.iter_mut().enumerate() {
+                *p = DVec2::new(x as f64, y as f64);
+            }
+            region.push_at(curve, &points, &mut scratch, &mut row_of);
+            row.iter_mut()
+                .zip(&row_of)
+                .for_each(|(to, &from)| *to = from);
+        }
+        let largest = push.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        self.begin(
+            name,
+            format!("{note}. Largest push {largest:.3}, for the curve drawn."),
+        );
+        let mut image = paint::signed(&push);
+        let wide = (f64::from(image.width().max(image.height())) / 250.0).clamp(1.0, 4.0);
+        paint::draw_curve(&mut image, curve, true, wide, [0, 0, 0]);
+        let caption = "push along the normal (red: joins the inside; blue: leaves it)";
+        self.show(&format!("{name}-push"), caption, &image)?;
+        self.keep(&format!("{name}.npy"), &npy(&[&push]))?;
+        self.keep(&format!("{name}.tiff"), &float_tiff(&[&push])?)
     }
 
     fn end(mut self) -> Result<Vec<PathBuf>, SceneError> {

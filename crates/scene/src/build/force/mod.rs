@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use elastic::Profile;
-use field::{EdgeForce, FieldError, ForceField, Grid, MaskedImage, Smoothing};
+use field::{EdgeForce, FieldError, ForceField, Grid, MaskedImage, Region, Smoothing};
 use glam::DVec2;
 use snake::{Acting, Gravity, ImageForce, Pressure, RegionForce, Sampling, Turned, World};
 
@@ -119,6 +119,23 @@ impl<'a> Sight<'a> {
         }
     }
 
+    /// The regions of a kind; None for a kind that has none.
+    pub(crate) fn region(
+        &self,
+        key: &str,
+        kind: &KindText,
+    ) -> Result<Option<Arc<dyn Region>>, SceneError> {
+        let at = At { key, sight: self };
+        let region = match kind {
+            KindText::Regions(text) => at.regions(text),
+            KindText::LocalRegions(text) => at.local_regions(text),
+            KindText::Likelihood(text) => at.likelihood(text),
+            KindText::Texture(text) => at.texture(text),
+            _ => return Ok(None),
+        };
+        region.map(Some)
+    }
+
     /// The field of a kind; None for a kind that is none: it asks for the curve, or for no picture.
     pub(crate) fn field(&self, key: &str, kind: &KindText) -> Result<Option<Made>, SceneError> {
         let at = At { key, sight: self };
@@ -135,6 +152,17 @@ impl<'a> Sight<'a> {
         };
         made.map(Some)
     }
+}
+
+/// Whether a kind compares what is inside with what is outside.
+pub(crate) const fn is_region(kind: &KindText) -> bool {
+    matches!(
+        kind,
+        KindText::Regions(_)
+            | KindText::LocalRegions(_)
+            | KindText::Likelihood(_)
+            | KindText::Texture(_)
+    )
 }
 
 fn above_nothing(contrast: f64) -> f64 {
@@ -219,17 +247,12 @@ impl<'a> Around<'a> {
         if asks_inside(kind) {
             self.closed(kind.word())?;
         }
-        let region = |region| Acting::new(RegionForce::new(region));
         Ok(match kind {
             KindText::Edge(text) if !either(text) => Acting::new(self.seen()?.signed_edge(text)?),
             KindText::Edge(text) => {
                 let field = Arc::new(self.seen()?.felt_edge(text)?);
                 Acting::new(ImageForce::new(field, Sampling::Bilinear))
             }
-            KindText::Regions(text) => region(self.seen()?.regions(text)?),
-            KindText::LocalRegions(text) => region(self.seen()?.local_regions(text)?),
-            KindText::Likelihood(text) => region(self.seen()?.likelihood(text)?),
-            KindText::Texture(text) => region(self.seen()?.texture(text)?),
             KindText::Pressure(text) => Acting::new(self.pressure(text)?),
             KindText::Gas(text) => {
                 let (k, area) = self.volume(text)?;
@@ -247,7 +270,11 @@ impl<'a> Around<'a> {
                 Acting::new(Gravity(number::place(&key, text.acceleration)?))
             }
             _ => {
-                let made = self.seen()?.sight.field(self.key, kind)?;
+                let sight = self.seen()?.sight;
+                if let Some(region) = sight.region(self.key, kind)? {
+                    return Ok(Acting::new(RegionForce::new(region)));
+                }
+                let made = sight.field(self.key, kind)?;
                 let Some(made) = made else {
                     let message = format!("{} is no field", kind.word());
                     return Err(SceneError::key(&format!("{}: kind", self.key), message));

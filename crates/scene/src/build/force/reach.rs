@@ -1,11 +1,19 @@
 //! Kinds that carry edges far: to the nearest one, or by flow and convolution.
 
-use field::{Falloff, FlowRule, ForceField, Grid, Smoothing, VectorFlow};
+use field::{Canny, Falloff, FlowRule, ForceField, Grid, Smoothing, VectorFlow};
+use glam::DVec2;
 
 use super::{At, Made, NORMAL_AT_0, number};
 use crate::SceneError;
 use crate::file::{DistanceText, GvfText, VfcText};
 use crate::limits::MOST_CONVOLUTION;
+
+/// An edge goes on while it is this share of what it must be to begin: Canny has thresholds in a ratio of two or three to one.
+const LOW: f64 = 0.5;
+
+/// How the pull of an edge pixel falls with distance: the inverse square, which Li and Acton begin with; a whole straight edge
+/// then pulls by the inverse of its distance. At 1 a ring would pull nothing inside it, so it must be above that.
+const USUAL_EXPONENT: f64 = 2.0;
 
 /// Where the pull of a flow levels off, as a share of its largest.
 const USUAL_KNEE: f64 = 0.1;
@@ -21,21 +29,36 @@ impl At<'_> {
         let (width, height) = self.sight.picture.size();
         let far = (width + height) as f64;
         let reach = self.above_zero("reach", text.reach, far)?;
-        let smoothed = self.smoothed(sigma)?;
-        let edges = field::edge_pixels(&smoothed, Smoothing::Binomial(0), threshold);
-        let mut edges = edges.map_err(self.refuse())?;
+        let most = reach.min(far);
+        let energy = |distance: Grid| Some(distance.mapv(|d| gain * d.min(most)));
         if let Some(valid) = self.sight.picture.valid() {
+            // Canny's derivatives know no mask: edges to the pixel, where pixels count
+            let smoothed = self.smoothed(sigma)?;
+            let edges = field::edge_pixels(&smoothed, Smoothing::Binomial(0), threshold);
+            let mut edges = edges.map_err(self.refuse())?;
             edges.zip_mut_with(valid, |edge, &counts| *edge &= counts);
+            let field = field::distance_force(&edges, gain, reach).map_err(self.refuse())?;
+            return Ok(Made {
+                field: self
+                    .sight
+                    .grey(self.key)?
+                    .cut(&field)
+                    .map_err(self.refuse())?,
+                energy: energy(field::squared_distance(&edges).mapv(f64::sqrt)),
+            });
         }
-        let field = field::distance_force(&edges, gain, reach).map_err(self.refuse())?;
-        let distance = field::squared_distance(&edges);
+        let rule = Canny {
+            sigma,
+            high: threshold,
+            low: LOW * threshold,
+        };
+        let levels = self.sight.picture.levels();
+        let edges = field::edge_points(levels, &rule).map_err(self.refuse())?;
+        let points: Vec<DVec2> = edges.iter().map(|edge| edge.position).collect();
+        let field = field::point_distance_force(&points, levels.dim(), gain, reach);
         Ok(Made {
-            field: self
-                .sight
-                .grey(self.key)?
-                .cut(&field)
-                .map_err(self.refuse())?,
-            energy: Some(distance.mapv(|d| gain * d.sqrt().min(reach.min(far)))),
+            field: field.map_err(self.refuse())?,
+            energy: energy(field::distance_to_points(&points, levels.dim())),
         })
     }
 
@@ -46,7 +69,10 @@ impl At<'_> {
     }
 
     /// Edges from 0 to 1: `P² / (P² + T²)`, half at the threshold T, so that a weak edge is not outdone by a
-    /// strong one far off, and noise stays next to nothing.
+    /// strong one far off, and noise stays next to nothing. It is 1 − g, with g the edge-stopping function of geodesic
+    /// contours and of anisotropic diffusion.
+    ///
+    /// \[caselles97\], \[perona90\]
     fn edge_map(&self, given: Option<f64>, sigma: f64) -> Result<Grid, SceneError> {
         let threshold = self.threshold(given, sigma)?;
         let strength = self.edge_strength(sigma)?;
@@ -95,7 +121,7 @@ impl At<'_> {
                 width: number::above_zero(&self.key("width"), width)?,
             },
             (exponent, None) => Falloff::Power {
-                exponent: self.above_zero("exponent", exponent, 3.0)?,
+                exponent: self.above_zero("exponent", exponent, USUAL_EXPONENT)?,
             },
         };
         let (width, height) = self.sight.picture.size();

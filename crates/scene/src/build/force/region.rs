@@ -139,18 +139,24 @@ impl At<'_> {
 struct Together<R>(Vec<R>);
 
 impl<R: Region> Region for Together<R> {
-    fn push_into(&self, polygon: &[DVec2], scratch: &mut RegionScratch, push: &mut [f64]) {
+    fn push_at(
+        &self,
+        polygon: &[DVec2],
+        points: &[DVec2],
+        scratch: &mut RegionScratch,
+        push: &mut [f64],
+    ) {
         let [first, others @ ..] = &self.0[..] else {
             push.fill(0.0);
             return;
         };
-        first.push_into(polygon, scratch, push);
+        first.push_at(polygon, points, scratch, push);
         if others.is_empty() {
             return;
         }
         let mut own = vec![0.0; push.len()];
         for other in others {
-            other.push_into(polygon, scratch, &mut own);
+            other.push_at(polygon, points, scratch, &mut own);
             for (push, own) in push.iter_mut().zip(&own) {
                 *push += own;
             }
