@@ -370,3 +370,52 @@ fn held_nodes_stay_to_the_last_bit_and_move_again_when_let_go() {
         assert!(state.x[8].distance(kept) > 1e-3, "{}", scheme.name());
     }
 }
+
+#[test]
+fn a_run_that_is_paused_and_changed_goes_on_as_if_it_had_never_stopped() {
+    // held from step 40 to 80, in one go
+    let whole = |snake: &mut Snake, state: &State| {
+        match state.step {
+            40 => snake.hold([3]).unwrap(),
+            80 => snake.release([3]).unwrap(),
+            _ => {}
+        }
+        ControlFlow::Continue(())
+    };
+    let (mut snake, mut once) = (ring(), start());
+    let mut stepper = Scheme::Leapfrog
+        .start(&mut snake, &once, 0.005, Start::SecondOrder)
+        .unwrap();
+    let until = Until::steps(120);
+    run(
+        &mut snake,
+        &mut *stepper,
+        &mut once,
+        &until,
+        &mut |snake, state| whole(snake, state),
+    );
+    // the same, stopped by the observer after 20 and after 60, and run again
+    let (mut snake, mut state) = (ring(), start());
+    let mut stepper = Scheme::Leapfrog
+        .start(&mut snake, &state, 0.005, Start::SecondOrder)
+        .unwrap();
+    for stop in [20, 60, 120] {
+        let outcome = run(
+            &mut snake,
+            &mut *stepper,
+            &mut state,
+            &Until::steps(stop),
+            &mut |snake, state| {
+                let on = whole(snake, state);
+                if state.step < stop {
+                    on
+                } else {
+                    ControlFlow::Break(())
+                }
+            },
+        );
+        assert_eq!(outcome, Outcome::Stopped { step: stop });
+    }
+    assert_eq!(state.x, once.x);
+    assert_eq!(state.v, once.v);
+}

@@ -64,10 +64,24 @@ pub(super) fn company(
                 for (i, &place) in places.iter().enumerate() {
                     let place = number::place(&format!("also {k}: at[{i}]"), place)?;
                     let mut moved = start.clone();
+                    let by = place - middle;
                     for x in &mut moved.x {
-                        *x += place - middle;
+                        *x += by;
                     }
-                    others.push((snake.clone(), moved));
+                    let mut snake = snake.clone();
+                    if super::force::knows_places(&own.force) {
+                        let mut there = own.clone();
+                        super::force::shift(&mut there.force, by);
+                        let closed = snake.body().topology.is_closed();
+                        let mut unsaid = Vec::new();
+                        let world =
+                            world::world(&there, rules, picture, &moved.x, closed, &mut unsaid);
+                        let world = world.map_err(within)?.0;
+                        snake
+                            .set_world(world)
+                            .map_err(|e| within(refused("snake", &e)))?;
+                    }
+                    others.push((snake, moved));
                 }
             }
         }

@@ -152,8 +152,14 @@ impl Crowd {
         if let Some(depth) = upkeep.merge {
             changed |= self.merge(depth)?;
         }
-        if let Some(stretch) = upkeep.stretch {
-            changed |= self.respace(stretch)?;
+        if let Some(stretch) = upkeep.stretch
+            && self.respace(stretch)?
+        {
+            changed = true;
+            // what is drawn through other nodes may cross where the old ones only came near
+            if let Some(least_area) = upkeep.least_area {
+                self.untangle(least_area)?;
+            }
         }
         if changed {
             self.meet(None)?;

@@ -412,6 +412,27 @@ pub(crate) fn remembers(list: &[ForceText]) -> bool {
     })
 }
 
+/// Whether one of these forces knows where the curve it was made for lies.
+pub(crate) fn knows_places(list: &[ForceText]) -> bool {
+    let knows = |force: &ForceText| matches!(force.kind, KindText::Spring(_) | KindText::Freeze(_));
+    list.iter().any(knows)
+}
+
+/// Move the places of springs, which go with their curve. A stretch is frozen where its nodes are, and all else is a
+/// part of the world.
+pub(crate) fn shift(list: &mut [ForceText], by: DVec2) {
+    for force in list {
+        if let KindText::Spring(spring) = &mut force.kind {
+            for place in [&mut spring.from, &mut spring.to].into_iter().flatten() {
+                *place = [place[0] + by.x, place[1] + by.y];
+            }
+            for [_, x, y] in spring.path.iter_mut().flatten() {
+                (*x, *y) = (*x + by.x, *y + by.y);
+            }
+        }
+    }
+}
+
 /// Add the forces of a list to a world, each under a name of its own.
 pub(crate) fn add(
     mut world: World,
