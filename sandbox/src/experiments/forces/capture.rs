@@ -21,16 +21,26 @@ const NEAR: f64 = 2.0;
 /// The start whose end is drawn in every panel.
 const EXAMPLE: [usize; 2] = [7, 10];
 
-const KINDS: [&str; 8] = [
+const KINDS: [&str; 14] = [
     "report",
     "corrected",
+    "one polarity",
+    "several scales",
     "coarse to fine",
     "distance",
     "GVF",
     "generalised GVF",
     "VFC",
+    "line",
+    "termination",
     "two regions",
+    "local regions",
+    "likelihood",
 ];
+/// Those that compare the inside with the outside come last.
+const REGIONS: usize = 3;
+/// Panels in a row.
+const ROW: usize = 5;
 
 /// From where on a grid of starts a circle reaches the object, a map for each force.
 pub(crate) const CAPTURE: Experiment = Experiment {
@@ -62,9 +72,14 @@ pub(crate) const CAPTURE: Experiment = Experiment {
             source: "[lindeberg98]",
             judge: |r| {
                 let coarse = afar(r, "coarse to fine")?;
+                let several = afar(r, "several scales")?;
                 Ok(Finding::new(
                     coarse > 0.5,
-                    format!("{} of them", percent(coarse)),
+                    format!(
+                        "{} of them; all scales at once {}",
+                        percent(coarse),
+                        percent(several)
+                    ),
                 ))
             },
         },
@@ -102,7 +117,7 @@ pub(crate) const CAPTURE: Experiment = Experiment {
             says: "but a small circle that arrives there lies folded on a piece of the outline: none of these forces makes it grow round the U",
             source: "theory",
             judge: |r| {
-                let most = KINDS[..7]
+                let most = KINDS[..KINDS.len() - REGIONS]
                     .iter()
                     .map(|kind| whole(r, kind))
                     .collect::<Result<Vec<f64>, SandboxError>>()?
@@ -146,6 +161,45 @@ pub(crate) const CAPTURE: Experiment = Experiment {
                         "outline {} px from the curve on average, against {} px",
                         words(&led),
                         words(&not)
+                    ),
+                ))
+            },
+        },
+        Claim {
+            says: "lines and terminations are no outlines: a circle near them goes into the object, or to its corners, and does not lie on its edge",
+            source: "[kass88]",
+            judge: |r| {
+                let (line, corner) = (reach(r, "line")?, reach(r, "termination")?);
+                let caught = r.number("line: ends inside the object, of starts within 15 px")?;
+                let cornered = r.number(
+                    "termination: a node within 3 px of a corner, of starts within 15 px of one",
+                )?;
+                Ok(Finding::new(
+                    line < 0.05 && corner < 0.05 && caught > 0.5 && cornered > 0.5,
+                    format!(
+                        "{} and {} of the starts arrive; {} end inside, {} at a corner",
+                        percent(line),
+                        percent(corner),
+                        percent(caught),
+                        percent(cornered)
+                    ),
+                ))
+            },
+        },
+        Claim {
+            says: "an edge force of one polarity finds as many circles from inside, and few of those that stand outside: they see the edge from its other side",
+            source: "theory",
+            judge: |r| {
+                let inside = r.number("one polarity: lies on the outline, of starts inside")?;
+                let outside = r.number("one polarity: lies on the outline, of starts outside")?;
+                let both = r.number("corrected: lies on the outline, of starts outside")?;
+                Ok(Finding::new(
+                    outside < 0.5 * both,
+                    format!(
+                        "{} of the starts inside, {} of those outside, which both polarities bring to it from {}",
+                        percent(inside),
+                        percent(outside),
+                        percent(both)
                     ),
                 ))
             },
@@ -227,12 +281,19 @@ fn run() -> Result<Record, SandboxError> {
     let mut circles = Table::raw("around");
     for kind in KINDS {
         let worlds = worlds(ID, kind, &image)?;
-        let mut found = Vec::new();
+        let (mut found, mut within, mut cornered) = (Vec::new(), Vec::new(), Vec::new());
         for (index, &at) in starts.iter().enumerate() {
             let (x, rests) = settle(ID, &worlds, elastic::circle(at, RADIUS, NODES))?;
             let arrived = rests && mean_distance(&x, &truth) < NEAR;
             let all = arrived && mean_distance(&truth, &x) < NEAR;
             found.push(f64::from(u8::from(arrived)) + f64::from(u8::from(all)));
+            let middle = x.iter().sum::<DVec2>() / real(x.len());
+            within.push(outline::winding(&truth, middle) != Some(0));
+            cornered.push(
+                truth
+                    .iter()
+                    .any(|corner| x.iter().any(|p| p.distance(*corner) < 3.0)),
+            );
             if index == example {
                 ends = ends
                     .with(
@@ -288,6 +349,37 @@ fn run() -> Result<Record, SandboxError> {
         circles = circles
             .with(format!("{kind} x"), "px", Tolerance::EXACT, column(|p| p.x))
             .with(format!("{kind} y"), "px", Tolerance::EXACT, column(|p| p.y));
+        let inside = |i: usize| outline::winding(&truth, starts[i]) != Some(0);
+        if kind == "line" {
+            let near = |i: usize| outline::distance(&truth, true, starts[i]) < 15.0;
+            record.note(
+                "line: ends inside the object, of starts within 15 px",
+                share(&|i| within[i], &near),
+                "of them",
+                few,
+            );
+        }
+        if kind == "termination" {
+            let near = |i: usize| truth.iter().any(|corner| corner.distance(starts[i]) < 15.0);
+            record.note(
+                "termination: a node within 3 px of a corner, of starts within 15 px of one",
+                share(&|i| cornered[i], &near),
+                "of them",
+                few,
+            );
+        }
+        if kind == "one polarity" || kind == "corrected" {
+            let sides: [(&str, &dyn Fn(usize) -> bool); 2] =
+                [("inside", &inside), ("outside", &|i| !inside(i))];
+            for (side, of) in sides {
+                record.note(
+                    format!("{kind}: lies on the outline, of starts {side}"),
+                    share(&arrived, of),
+                    "of them",
+                    few,
+                );
+            }
+        }
         if kind == "two regions" {
             record.note(
                 "two regions: whole outline from starts whose circle is on the object",
@@ -321,6 +413,16 @@ fn run() -> Result<Record, SandboxError> {
             .with("y", "px", Tolerance::EXACT, y),
     );
     Ok(record)
+}
+
+/// A row as wide as the others.
+fn filled(row: &[Panel]) -> Vec<Panel> {
+    let empty = || Panel::pixels(String::new(), SIZE, SIZE).bare();
+    let missing = ROW - row.len();
+    row.iter()
+        .cloned()
+        .chain(std::iter::repeat_with(empty).take(missing))
+        .collect()
 }
 
 fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
@@ -368,8 +470,8 @@ fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
         "§4.2  Starts from which a circle of radius 10 px reaches the U: blue, it lies on the outline; green, it is the outline",
         940.0,
     );
-    for row in panels.chunks(4) {
-        figure = figure.with(258.0, row.to_vec());
+    for row in panels.chunks(ROW) {
+        figure = figure.with(212.0, filled(row));
     }
     let mut around = Vec::new();
     for kind in KINDS {
@@ -393,8 +495,8 @@ fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
         "§4.2  A circle of radius 115 px around the U: where each force leaves it, and how far the outline is from it",
         940.0,
     );
-    for row in around.chunks(4) {
-        second = second.with(258.0, row.to_vec());
+    for row in around.chunks(ROW) {
+        second = second.with(212.0, filled(row));
     }
     Ok(vec![
         Artefact::figure(

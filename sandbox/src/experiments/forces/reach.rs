@@ -4,9 +4,11 @@ use super::synthetic::{AROUND, OBJECT};
 use crate::{SandboxError, real};
 use elastic::{Material, Topology};
 use field::{
-    EdgeForce, Falloff, FlowRule, ForceField, Grid, REPORT_GAIN, REPORT_PASSES, REPORT_SCALE,
-    Region, RegionScratch, Smoothing, TwoRegions, VectorFlow, distance_force, edge_force,
-    edge_pixels, edge_stages, report_force, vector_convolution, vector_flow,
+    Canny, Classes, Density, EdgeForce, Falloff, FieldError, FlowRule, ForceField, Grid,
+    LikelihoodRegions, Line, LocalRegions, MaskedImage, Polarity, REPORT_GAIN, REPORT_PASSES,
+    REPORT_SCALE, Region, RegionScratch, SignedEdge, Smoothing, TwoRegions, VectorFlow, edge_force,
+    edge_points, edge_stages, gradient_force, line_strength, multiscale_edge_strength,
+    point_distance_force, report_force, termination_strength, vector_convolution, vector_flow,
 };
 use glam::DVec2;
 use integrator::{Fault, Scheme, Start, State};
@@ -34,19 +36,19 @@ fn evened(id: &'static str, field: &ForceField) -> Result<ForceField, SandboxErr
     ForceField::from_components(&x, &y).map_err(SandboxError::refused(id))
 }
 
-/// Two regions as a force on nodes, along the outward normal, as strong on a stretched curve as on any: the push of
+/// Regions as a force on nodes, along the outward normal, as strong on a stretched curve as on any: the push of
 /// [`snake::RegionForce`] is one of the curve's present length, and a circle that grows to twelve times its own would feel
 /// twelve times the force.
 #[derive(Debug, Clone)]
 struct Regions {
-    regions: TwoRegions,
+    regions: Arc<dyn Region>,
     scratch: RegionScratch,
     push: Vec<f64>,
 }
 
 impl Force for Regions {
     fn name(&self) -> &'static str {
-        "two regions"
+        "regions"
     }
 
     fn add(&mut self, curve: &Curve<'_>, force: &mut [DVec2]) -> Result<(), Fault> {
@@ -69,14 +71,64 @@ impl Force for Regions {
     }
 }
 
+/// Edges of one polarity, evened as fields are.
+#[derive(Debug, Clone)]
+struct OneSided {
+    edge: Arc<SignedEdge>,
+    floor: f64,
+}
+
+impl Force for OneSided {
+    fn name(&self) -> &'static str {
+        "one polarity"
+    }
+
+    fn add(&mut self, curve: &Curve<'_>, force: &mut [DVec2]) -> Result<(), Fault> {
+        let normals = elastic::normals(curve.x, true);
+        for ((force, normal), &at) in force.iter_mut().zip(normals).zip(curve.x) {
+            let pull = self.edge.at(at, normal);
+            *force += pull / (pull.length() + self.floor);
+        }
+        Ok(())
+    }
+
+    fn boxed(&self) -> Box<dyn Force> {
+        Box::new(self.clone())
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+}
+
+/// Regions of a kind, of about strength 1; None for a kind that is none.
+fn regions(kind: &str, image: &Grid) -> Result<Option<Arc<dyn Region>>, FieldError> {
+    let gain = 0.5 / (OBJECT - AROUND).powi(2);
+    let region: Arc<dyn Region> = match kind {
+        "two regions" => Arc::new(TwoRegions::new(image, gain)?),
+        "local regions" => Arc::new(LocalRegions::new(&TwoRegions::new(image, gain)?, 16.0)?),
+        "likelihood" => {
+            let classes = Classes::grey(&MaskedImage::whole(image)?, 64)?;
+            let bandwidth = (OBJECT - AROUND) / 20.0;
+            Arc::new(LikelihoodRegions::new(
+                &classes,
+                Density::Parzen { bandwidth },
+                0.1,
+            )?)
+        }
+        _ => return Ok(None),
+    };
+    Ok(Some(region))
+}
+
 /// What moves a circle: one world after another.
 pub(super) fn worlds(
     id: &'static str,
     kind: &str,
     image: &Grid,
 ) -> Result<Vec<World>, SandboxError> {
-    let no = || SandboxError::refused::<field::FieldError>(id);
-    let edge = |smoothing| {
+    let no = || SandboxError::refused::<FieldError>(id);
+    let edge_field = |smoothing| {
         edge_force(
             image,
             &EdgeForce {
@@ -109,29 +161,59 @@ pub(super) fn worlds(
         "report" => {
             vec![report_force(image, REPORT_PASSES, REPORT_SCALE, REPORT_GAIN).map_err(no())?]
         }
-        "corrected" => vec![edge(Smoothing::Binomial(REPORT_PASSES))?],
+        "corrected" => vec![edge_field(Smoothing::Binomial(REPORT_PASSES))?],
         "coarse to fine" => [24.0, 12.0, 6.0, 3.0]
             .into_iter()
-            .map(|sigma| edge(Smoothing::Gaussian(sigma)))
+            .map(|sigma| edge_field(Smoothing::Gaussian(sigma)))
             .collect::<Result<_, _>>()?,
         "distance" => {
-            let edges = edge_pixels(image, fine, 10.0).map_err(no())?;
-            vec![distance_force(&edges, 1.0, f64::INFINITY).map_err(no())?]
+            let rule = Canny {
+                sigma: 1.0,
+                high: 10.0,
+                low: 5.0,
+            };
+            let edges = edge_points(image, &rule).map_err(no())?;
+            let points: Vec<DVec2> = edges.iter().map(|edge| edge.position).collect();
+            vec![point_distance_force(&points, image.dim(), 1.0, f64::INFINITY).map_err(no())?]
+        }
+        "several scales" => {
+            let strength = multiscale_edge_strength(image, &[1.0, 2.0, 4.0, 8.0, 16.0]);
+            vec![gradient_force(&strength.map_err(no())?, 1.0).map_err(no())?]
+        }
+        "line" => {
+            let strength = line_strength(image, Smoothing::Gaussian(3.0), Line::Bright);
+            vec![gradient_force(&strength.map_err(no())?, 1.0).map_err(no())?]
+        }
+        "termination" => {
+            let strength = termination_strength(image, Smoothing::Gaussian(3.0), 1.0);
+            vec![gradient_force(&strength.map_err(no())?, 1.0).map_err(no())?]
+        }
+        "one polarity" => {
+            let smoothing = Smoothing::Binomial(REPORT_PASSES);
+            let edge = SignedEdge::new(image, smoothing, Polarity::BrightToDark, 1.0);
+            let force = OneSided {
+                edge: Arc::new(edge.map_err(no())?),
+                floor: FLOOR * edge_field(smoothing)?.largest(),
+            };
+            return Ok(vec![World::default().with(force)]);
         }
         "GVF" => vec![flow(FlowRule::Plain { smoothness: 0.2 })?],
         "generalised GVF" => vec![flow(FlowRule::Generalised { spread: 0.05 })?],
         "VFC" => {
-            let falloff = Falloff::Power { exponent: 1.7 };
+            let falloff = Falloff::Power { exponent: 2.0 };
             vec![vector_convolution(&strength()?, falloff, 128.0).map_err(no())?]
         }
         _ => {
-            let gain = 0.5 / (OBJECT - AROUND).powi(2);
-            let force = Regions {
-                regions: TwoRegions::new(image, gain).map_err(no())?,
-                scratch: RegionScratch::default(),
-                push: Vec::new(),
-            };
-            return Ok(vec![World::default().with(force)]);
+            let regions = regions(kind, image).map_err(no())?;
+            let worlds = regions.map(|regions| {
+                let force = Regions {
+                    regions,
+                    scratch: RegionScratch::default(),
+                    push: Vec::new(),
+                };
+                World::default().with(force)
+            });
+            return Ok(worlds.into_iter().collect());
         }
     };
     let world = |field: ForceField| {

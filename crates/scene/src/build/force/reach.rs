@@ -126,9 +126,16 @@ impl At<'_> {
         };
         let (width, height) = self.sight.picture.size();
         let far = width.max(height) as f64;
-        let reach = self.above_zero("reach", text.reach, far)?.min(far);
-        let side = |length: usize| 2.0_f64.powf((length as f64 + reach).log2().ceil());
-        if side(width) * side(height) > MOST_CONVOLUTION {
+        let mut reach = self.above_zero("reach", text.reach, far)?.min(far);
+        let too_large = |reach: f64| {
+            let side = |length: usize| 2.0_f64.powf((length as f64 + reach).log2().ceil());
+            side(width) * side(height) > MOST_CONVOLUTION
+        };
+        // unless it is asked for, as far as memory allows: long and narrow pictures would take that of a square
+        while text.reach.is_none() && reach > 1.0 && too_large(reach) {
+            reach *= 0.5;
+        }
+        if too_large(reach) {
             let message = format!(
                 "{reach} pixels on a picture of {width}×{height} take too much memory; a shorter one would do"
             );
