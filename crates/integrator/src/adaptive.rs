@@ -239,6 +239,7 @@ impl Adaptive {
     fn try_pair(&mut self, system: &mut dyn System) -> Result<f64, Fault> {
         let level = self.level;
         let goes_on = self.rolling == Some(level);
+        self.watch.half = None;
         self.fine.copy(&self.from);
         self.coarse.copy(&self.from);
         self.rewind(system);
@@ -253,17 +254,20 @@ impl Adaptive {
         self.rewind(system);
         self.ready(system, level + 1, goes_on)?;
         self.watch.late = 0.0;
+        self.watch.met.clear();
         for half in 0..2 {
+            self.watch.half = Some(half);
             Self::go(
                 &mut self.gears[short],
                 &mut self.watch,
                 system,
                 &mut self.fine,
             )?;
-            if self.each && half == 0 {
+            if half == 0 {
                 self.middle.copy(&self.fine);
             }
         }
+        self.watch.half = None;
         let mut apart = 0.0_f64;
         for (a, b) in self.fine.x.iter().zip(&self.coarse.x) {
             apart = apart.max(a.distance_squared(*b));
@@ -390,6 +394,7 @@ impl Adaptive {
         } else {
             &self.middle
         };
+        self.watch.tell(usize::from(self.waiting), system);
         state.x.copy_from_slice(&to.x);
         state.v.copy_from_slice(&to.v);
         state.t = to.t;
@@ -439,7 +444,15 @@ impl Stepper for Adaptive {
         while done < whole {
             self.align(done);
             match self.advance(system) {
-                Ok(some) => done += some,
+                Ok(some) => {
+                    if done > 0 {
+                        system.passed(&self.from);
+                    }
+                    done += some;
+                    self.watch.tell(0, system);
+                    system.passed(&self.middle);
+                    self.watch.tell(1, system);
+                }
                 Err(fault) => {
                     state.copy(&self.origin);
                     self.rolling = None;

@@ -10,7 +10,7 @@
 use glam::DVec2;
 
 use crate::solver::Solver;
-use crate::{Fault, State, System, Touch, stepper};
+use crate::{Fault, Meeting, State, System, Touch, stepper};
 
 /// The end of a step.
 #[derive(Debug, Clone, Copy)]
@@ -51,6 +51,8 @@ pub(crate) struct Contacts {
     pub(crate) touches: Vec<Touch>,
     /// How far the touched nodes were moved, and those that followed.
     shift: Vec<DVec2>,
+    /// Places and velocities before the touches.
+    was: (Vec<DVec2>, Vec<DVec2>),
     force: Vec<DVec2>,
     product: Vec<DVec2>,
 }
@@ -61,6 +63,7 @@ impl Contacts {
         Self {
             touches: Vec::with_capacity(n),
             shift: zeros(),
+            was: (zeros(), zeros()),
             force: zeros(),
             product: zeros(),
         }
@@ -111,6 +114,8 @@ impl Contacts {
         if !self.find(system, dt, before, x, v) {
             return Ok(false);
         }
+        self.was.0.copy_from_slice(x);
+        self.was.1.copy_from_slice(v);
         self.shift.fill(DVec2::ZERO);
         let mut leaves = false;
         for touch in &self.touches {
@@ -156,7 +161,12 @@ impl Contacts {
                 Some(asked) => asked,
             };
         }
-        system.met(t, x, v);
+        system.met(&Meeting {
+            t,
+            late: moment.lag(),
+            before: (&self.was.0, &self.was.1),
+            after: (x, v),
+        });
         Ok(true)
     }
 

@@ -339,6 +339,7 @@ impl Stepper for DormandPrince {
                 break;
             }
             std::mem::swap(&mut self.from, &mut self.to);
+            system.passed(&self.from);
         }
         state.x.copy_from_slice(&self.to.x);
         state.v.copy_from_slice(&self.to.v);

@@ -96,6 +96,19 @@ pub struct Touch {
     pub velocity: Option<DVec2>,
 }
 
+/// Places and velocities of all nodes just before touches and just after.
+#[derive(Debug, Clone, Copy)]
+pub struct Meeting<'a> {
+    /// When.
+    pub t: f64,
+    /// How far the velocities are behind the places, at nodes that were not touched. T.
+    pub late: f64,
+    /// Places and velocities before.
+    pub before: (&'a [DVec2], &'a [DVec2]),
+    /// And after.
+    pub after: (&'a [DVec2], &'a [DVec2]),
+}
+
 /// Nodes with mass, damping, stiffness and external forces: μ v̈ + γ v̇ = elastic + external.
 ///
 /// The elastic force is affine in the positions: `elastic(x) − elastic(y) = −A (x − y)` with
@@ -167,10 +180,14 @@ pub trait System {
         let _ = (dt, before, x, v, touches);
     }
 
-    /// The nodes are now at `x` with velocities `v`, after the touches of the last
-    /// [`contacts`](Self::contacts): for whoever keeps account of what contacts take.
-    fn met(&mut self, t: f64, x: &[DVec2], v: &[DVec2]) {
-        let _ = (t, x, v);
+    /// What the touches of the last [`contacts`](Self::contacts) have done: for whoever keeps account of it.
+    fn met(&mut self, meeting: &Meeting<'_>) {
+        let _ = meeting;
+    }
+
+    /// A sub-step within a step ended at this state, and stands; that of the step's own end is not told.
+    fn passed(&mut self, state: &State) {
+        let _ = state;
     }
 
     /// Largest stiffness and damping that a penalty contact adds at one node, for step limits.

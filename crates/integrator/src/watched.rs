@@ -2,15 +2,54 @@
 
 use glam::DVec2;
 
-use crate::{System, Touch, Wrapped};
+use crate::{Meeting, System, Touch, Wrapped};
 
 /// Which version of a system's parameters there is, and whether something was touched.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Watch {
     pub(crate) version: u64,
     pub(crate) touched: bool,
     /// How far a node may be off because a contact was met at the end of a step and not before.
     pub(crate) late: f64,
+    /// Which of the two sub-steps that may stand is being made.
+    pub(crate) half: Option<usize>,
+    /// What was met in them.
+    pub(crate) met: Vec<(usize, Met)>,
+}
+
+/// A meeting to be told of later.
+#[derive(Debug, Clone)]
+pub(crate) struct Met {
+    t: f64,
+    late: f64,
+    before: (Vec<DVec2>, Vec<DVec2>),
+    after: (Vec<DVec2>, Vec<DVec2>),
+}
+
+impl Met {
+    fn of(meeting: &Meeting<'_>) -> Self {
+        let own = |(x, v): (&[DVec2], &[DVec2])| (x.to_vec(), v.to_vec());
+        Self {
+            t: meeting.t,
+            late: meeting.late,
+            before: own(meeting.before),
+            after: own(meeting.after),
+        }
+    }
+}
+
+impl Watch {
+    /// Tell of what was met in one of the two sub-steps.
+    pub(crate) fn tell(&self, half: usize, system: &mut dyn System) {
+        for (_, met) in self.met.iter().filter(|(when, _)| *when == half) {
+            system.met(&Meeting {
+                t: met.t,
+                late: met.late,
+                before: (&met.before.0, &met.before.1),
+                after: (&met.after.0, &met.after.1),
+            });
+        }
+    }
 }
 
 /// A system as one of several steppers sees it: told of every change that another one asked for.
@@ -64,7 +103,10 @@ impl Wrapped for Watched<'_> {
         }
     }
 
-    fn met(&mut self, _t: f64, _x: &[DVec2], _v: &[DVec2]) {
+    fn met(&mut self, meeting: &Meeting<'_>) {
         // whether this happens at all is not decided yet
+        if let Some(half) = self.watch.half {
+            self.watch.met.push((half, Met::of(meeting)));
+        }
     }
 }

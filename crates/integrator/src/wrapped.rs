@@ -3,7 +3,7 @@
 use banded::Operator;
 use glam::{DMat2, DVec2};
 
-use crate::{Fault, System, Touch};
+use crate::{Fault, Meeting, State, System, Touch};
 
 /// A [`System`] around another: what it does not say itself, the one inside answers.
 ///
@@ -101,8 +101,13 @@ pub trait Wrapped {
     }
 
     /// See [`System::met`].
-    fn met(&mut self, t: f64, x: &[DVec2], v: &[DVec2]) {
-        self.inner_mut().met(t, x, v);
+    fn met(&mut self, meeting: &Meeting<'_>) {
+        self.inner_mut().met(meeting);
+    }
+
+    /// See [`System::passed`].
+    fn passed(&mut self, state: &State) {
+        self.inner_mut().passed(state);
     }
 
     /// See [`System::contact_stiffness`].
@@ -170,8 +175,12 @@ impl<T: Wrapped> System for T {
         Wrapped::contacts(self, dt, before, x, v, touches);
     }
 
-    fn met(&mut self, t: f64, x: &[DVec2], v: &[DVec2]) {
-        Wrapped::met(self, t, x, v);
+    fn met(&mut self, meeting: &Meeting<'_>) {
+        Wrapped::met(self, meeting);
+    }
+
+    fn passed(&mut self, state: &State) {
+        Wrapped::passed(self, state);
     }
 
     fn contact_stiffness(&self) -> (f64, f64) {

@@ -273,6 +273,8 @@ impl Scene {
         let keep = &plan.recording.sorted();
         let mut ledger = if keep.energies {
             let begun = Ledger::begin(&mut self.snake, &state);
+            let begun = begun
+                .and_then(|ledger| ledger.under(plan.scheme, plan.start_rule, &mut self.snake));
             Some(begun.map_err(|fault| SceneError::key("snake.start", fault))?)
         } else {
             None

@@ -1,18 +1,28 @@
 //! The energies of a snake at one moment, and what its ledger asks of it.
 
 use glam::DVec2;
-use integrator::State;
+use integrator::{Meeting, State};
 
 use crate::{Curve, Energies, Snake};
 
 /// What a ledger needs to know of the moments between two states.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Account {
-    /// Just before the contacts of a step.
-    pub(crate) x: Vec<DVec2>,
-    pub(crate) v: Vec<DVec2>,
-    /// Taken by contacts since last asked; None where there were none.
-    lost: Option<f64>,
+    /// Contacts since last asked.
+    contact: Option<Touched>,
+    /// Sub-steps that ended since last asked, and what was touched at their ends.
+    trail: Vec<(State, Option<Touched>)>,
+}
+
+/// What contacts have done within one step or sub-step.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Touched {
+    /// Just before the last of them, velocities as the scheme had them.
+    pub(crate) before: (Vec<DVec2>, Vec<DVec2>),
+    /// Velocities just after it, as the scheme goes on with them.
+    pub(crate) after: Vec<DVec2>,
+    /// What they have taken, as far as places and velocities say at the moment of each.
+    pub(crate) lost: f64,
 }
 
 impl Snake {
@@ -74,11 +84,24 @@ impl Snake {
         self.account = Some(Account::default());
     }
 
-    /// Energy that contacts have taken since last asked; None where there were none.
-    pub(crate) fn take_lost(&mut self) -> Option<f64> {
-        self.account
-            .as_mut()
-            .and_then(|account| account.lost.take())
+    /// What contacts have done since last asked; None where there were none.
+    pub(crate) fn take_touched(&mut self) -> Option<Touched> {
+        let account = self.account.as_mut();
+        account.and_then(|account| account.contact.take())
+    }
+
+    /// Sub-steps since last asked.
+    pub(crate) fn take_trail(&mut self) -> Vec<(State, Option<Touched>)> {
+        let account = self.account.as_mut();
+        account.map_or_else(Vec::new, |account| std::mem::take(&mut account.trail))
+    }
+
+    /// A sub-step ended here.
+    pub(crate) fn note_passed(&mut self, state: &State) {
+        if let Some(account) = &mut self.account {
+            let contact = account.contact.take();
+            account.trail.push((state.clone(), contact));
+        }
     }
 
     /// Energy that schedules have put in between two states: what the change of the parameters alone
@@ -109,7 +132,7 @@ impl Snake {
     }
 
     /// Kinetic, elastic and potential energy.
-    fn mechanical(&mut self, t: f64, x: &[DVec2], v: &[DVec2]) -> f64 {
+    pub(crate) fn mechanical(&mut self, t: f64, x: &[DVec2], v: &[DVec2]) -> f64 {
         let potentials = self.potentials(&self.curve(t, x, v));
         self.own_energies(t, x, v).mechanical() + potentials.into_iter().flatten().sum::<f64>()
     }
@@ -129,18 +152,20 @@ impl Snake {
         self.body.spacing * moved.map(|((x, from), f)| f.dot(*x - *from)).sum::<f64>()
     }
 
-    /// What the contacts of a step have taken, now that they left the nodes at `x`.
-    pub(crate) fn book_contact(&mut self, t: f64, x: &[DVec2], v: &[DVec2]) {
+    /// What the contacts of a step have taken, now that they have left the nodes where they are.
+    pub(crate) fn book_contact(&mut self, meeting: &Meeting<'_>) {
         let Some(mut account) = self.account.take() else {
             return;
         };
-        if account.x.len() == x.len() {
-            let before = self.mechanical(t, &account.x, &account.v);
-            let after = self.mechanical(t, x, v);
-            let lost = before - after + self.unbooked(t, &account.x, x);
-            account.lost = Some(account.lost.unwrap_or(0.0) + lost);
-        }
-        account.x.clear();
+        let (t, (x, v), (put, turned)) = (meeting.t, meeting.before, meeting.after);
+        let taken = self.mechanical(t, x, v) - self.mechanical(t, put, turned);
+        let lost = taken + self.unbooked(t, x, put);
+        let earlier = account.contact.take().map_or(0.0, |contact| contact.lost);
+        account.contact = Some(Touched {
+            before: (x.to_vec(), v.to_vec()),
+            after: turned.to_vec(),
+            lost: earlier + lost,
+        });
         self.account = Some(account);
     }
 }

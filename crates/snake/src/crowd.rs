@@ -285,6 +285,7 @@ impl Crowd {
             .pace(&mut snake, &state, self.timing.start)
             .map_err(|error| CrowdError::Scheme { member, error })?;
         let ledger = Ledger::begin(&mut snake, &state)
+            .and_then(|ledger| ledger.under(self.timing.scheme, self.timing.start, &mut snake))
             .map_err(|fault| CrowdError::Fault { member, fault })?;
         let spacing = snake.body().spacing;
         self.members.push(Member {
@@ -474,6 +475,8 @@ impl Crowd {
             sum.wall += energies.wall;
             sum.damping += energies.damping;
             sum.contact += energies.contact;
+            sum.frame += energies.frame;
+            sum.scheme += energies.scheme;
             sum.parameters += energies.parameters;
             sum.hand += energies.hand;
         }

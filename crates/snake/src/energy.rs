@@ -28,6 +28,12 @@ pub struct Energies {
     pub damping: f64,
     /// Lost in contacts since the run began.
     pub contact: f64,
+    /// Minus what a body frame without reaction has put in since the run began (D4). It pushes the body as a whole, which
+    /// no energy of its deformation does.
+    pub frame: f64,
+    /// Minus what the scheme's own algebra has put in since the run began, where it is known
+    /// ([`Ledger::under`](crate::Ledger::under)).
+    pub scheme: f64,
     /// Minus what schedules of parameters have put in since the run began.
     pub parameters: f64,
     /// Minus what changes of the snake and its world by hand have put in since the run began, and what
@@ -45,7 +51,15 @@ impl Energies {
     /// The same with these names for the forces.
     pub fn names_with<'a>(forces: impl Iterator<Item = &'a str>) -> Vec<String> {
         let first = ["kinetic", "tether", "tension", "rigidity"];
-        let last = ["wall", "damping", "contact", "parameters", "hand"];
+        let last = [
+            "wall",
+            "damping",
+            "contact",
+            "frame",
+            "scheme",
+            "parameters",
+            "hand",
+        ];
         first
             .into_iter()
             .chain(forces)
@@ -60,7 +74,7 @@ impl Energies {
         let mut values = vec![self.kinetic, self.tether, self.tension, self.rigidity];
         values.extend(&self.forces);
         values.extend([self.wall, self.damping, self.contact]);
-        values.extend([self.parameters, self.hand]);
+        values.extend([self.frame, self.scheme, self.parameters, self.hand]);
         values
     }
 
@@ -80,6 +94,7 @@ impl Energies {
     /// and of the account.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.mechanical() + self.damping + self.contact + self.parameters + self.hand
+        let put_in = self.frame + self.scheme + self.parameters + self.hand;
+        self.mechanical() + self.damping + self.contact + put_in
     }
 }

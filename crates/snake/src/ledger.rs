@@ -1,8 +1,10 @@
 //! The account of where the energies of a run go.
 
 use glam::DVec2;
-use integrator::{Fault, State, System};
+use integrator::{Fault, Scheme, Start, State, System};
 
+use crate::account::Touched;
+use crate::algebra::{Algebra, Booked};
 use crate::{Energies, Snake};
 
 /// Follows a run and keeps account of what has no potential.
@@ -27,21 +29,25 @@ pub struct Ledger {
     /// What damping took per unit of time at the last state, under the damping there was then.
     rate: f64,
     contact: f64,
+    frame: f64,
+    scheme: f64,
     parameters: f64,
     hand: f64,
+    /// The scheme whose algebra is known, and what it has used at the last state.
+    algebra: Option<Algebra>,
     middle: State,
     force: Vec<DVec2>,
     halfway: Vec<DVec2>,
 }
 
 #[derive(Debug, Clone)]
-struct Booking {
-    index: usize,
-    work: f64,
+pub(crate) struct Booking {
+    pub(crate) index: usize,
+    pub(crate) work: f64,
     /// Power at the last state.
     power: f64,
     /// Force at the last state.
-    force: Vec<DVec2>,
+    pub(crate) force: Vec<DVec2>,
 }
 
 impl Ledger {
@@ -60,12 +66,29 @@ impl Ledger {
             damping: 0.0,
             rate: snake.loss(state),
             contact: 0.0,
+            frame: 0.0,
+            scheme: 0.0,
             parameters: 0.0,
             hand: 0.0,
+            algebra: None,
             middle: state.clone(),
             force: vec![DVec2::ZERO; n],
             halfway: vec![DVec2::ZERO; n],
         })
+    }
+
+    /// The same for steps of that scheme: where its algebra is known, what it does to the energy by itself is booked
+    /// under `scheme`, and damping and work as it counts them, so that the sum closes to rounding.
+    ///
+    /// Known are [`Scheme::Report`] and [`Scheme::Leapfrog`]; others are booked as they were.
+    ///
+    /// # Errors
+    ///
+    /// As [`Ledger::begin`].
+    pub fn under(mut self, scheme: Scheme, start: Start, snake: &mut Snake) -> Result<Self, Fault> {
+        self.algebra = Algebra::of(scheme, start);
+        self.begin_powers(snake)?;
+        Ok(self)
     }
 
     /// Book the step that led to `state`.
@@ -74,13 +97,12 @@ impl Ledger {
     ///
     /// The fault of a force that has no value at a node; what was booked before stays.
     pub fn book(&mut self, snake: &mut Snake, state: &State) -> Result<(), Fault> {
-        let lost = snake.take_lost();
         if snake.changes == self.was.changes {
-            return self.step(snake, state, lost);
+            return self.steps(snake, state);
         }
         if !snake.just_changed() {
             self.change(snake)?;
-            return self.step(snake, state, lost);
+            return self.steps(snake, state);
         }
         // changed at `state`: the step was still made by the snake as it was
         let mut was = self.was.clone();
@@ -88,16 +110,40 @@ impl Ledger {
             // chosen since then by the snake itself
             was.body.damping.clone_from(&snake.body.damping);
         }
-        self.step(&mut was, state, lost)?;
+        was.account = snake.account.take();
+        snake.keep_account();
+        self.steps(&mut was, state)?;
         self.change(snake)
     }
 
-    fn step(&mut self, snake: &mut Snake, state: &State, lost: Option<f64>) -> Result<(), Fault> {
+    /// All sub-steps that led to `state`.
+    fn steps(&mut self, snake: &mut Snake, state: &State) -> Result<(), Fault> {
+        for (passed, touched) in snake.take_trail() {
+            self.step(snake, &passed, touched)?;
+        }
+        let touched = snake.take_touched();
+        self.step(snake, state, touched)
+    }
+
+    fn step(
+        &mut self,
+        snake: &mut Snake,
+        state: &State,
+        touched: Option<Touched>,
+    ) -> Result<(), Fault> {
+        self.stop(snake)?;
+        if let Some(mut algebra) = self.algebra.take() {
+            let booked = self.by_algebra(&mut algebra, snake, state, touched);
+            self.algebra = Some(algebra);
+            booked?;
+            self.parameters -= snake.take_put_in(&self.before, state);
+            self.before.clone_from(state);
+            return Ok(());
+        }
         let h = snake.body().spacing;
         let dt = state.t - self.before.t;
-        let smooth = lost.is_none();
-        self.stop(snake)?;
-        self.contact += lost.unwrap_or(0.0);
+        let smooth = touched.is_none();
+        self.contact += touched.map_or(0.0, |touched| touched.lost);
         self.parameters -= snake.take_put_in(&self.before, state);
         self.interpolate(state, dt);
         let loss = |state: &State| snake.loss(state);
@@ -108,6 +154,14 @@ impl Ledger {
             dt / 2.0 * (before + after)
         };
         self.rate = after;
+        if !snake.body().frame.reaction {
+            let mut total = 0.0;
+            for (weight, state) in [(1.0, &self.before), (4.0, &self.middle), (1.0, state)] {
+                snake.frame_force(state.t, &state.x, &mut self.force);
+                total += weight * power(&self.force, &state.v);
+            }
+            self.frame -= h * dt / 6.0 * total;
+        }
         for booking in &mut self.bookings {
             self.force.fill(DVec2::ZERO);
             snake.force_of(booking.index, state, &mut self.force)?;
@@ -131,6 +185,31 @@ impl Ledger {
         Ok(())
     }
 
+    /// What a step has done by the algebra of its scheme.
+    fn by_algebra(
+        &mut self,
+        algebra: &mut Algebra,
+        snake: &mut Snake,
+        state: &State,
+        touched: Option<Touched>,
+    ) -> Result<(), Fault> {
+        let Booked {
+            damping,
+            frame,
+            scheme,
+            works,
+            contact,
+        } = algebra.step(snake, &self.before, state, touched, &self.bookings)?;
+        self.damping += damping;
+        self.frame -= frame;
+        self.scheme -= scheme;
+        self.contact += contact;
+        for (booking, work) in self.bookings.iter_mut().zip(works) {
+            booking.work += work;
+        }
+        Ok(())
+    }
+
     /// Nodes that a hand has stopped stand: what they had is its work.
     fn stop(&mut self, snake: &mut Snake) -> Result<(), Fault> {
         let (h, mut stopped) = (snake.body().spacing, 0.0);
@@ -150,6 +229,9 @@ impl Ledger {
     /// What everything does per unit of time at the last state, asked anew.
     fn begin_powers(&mut self, snake: &mut Snake) -> Result<(), Fault> {
         self.rate = snake.loss(&self.before);
+        if let Some(algebra) = &mut self.algebra {
+            algebra.begin(snake, &self.before, &self.bookings)?;
+        }
         for booking in &mut self.bookings {
             booking.force.clear();
             booking.force.resize(self.before.len(), DVec2::ZERO);
@@ -175,6 +257,9 @@ impl Ledger {
         })?;
         self.hand += sum - self.energies(snake, &before).total();
         self.rate = snake.loss(&before);
+        if let Some(algebra) = &mut self.algebra {
+            algebra.begin(snake, &before, &self.bookings)?;
+        }
         *self.was = snake.clone();
         Ok(())
     }
@@ -192,6 +277,9 @@ impl Ledger {
         self.middle.clone_from(state);
         self.force.resize(n, DVec2::ZERO);
         self.halfway.resize(n, DVec2::ZERO);
+        if let Some(algebra) = &mut self.algebra {
+            algebra.resume();
+        }
         self.begin_powers(snake)?;
         if snake.changes != self.was.changes {
             *self.was = snake.clone();
@@ -203,7 +291,8 @@ impl Ledger {
     #[must_use]
     pub(crate) fn booked(&self) -> (f64, f64) {
         let work: f64 = self.bookings.iter().map(|booking| booking.work).sum();
-        let lost = self.damping + self.contact + self.parameters + self.hand;
+        let lost =
+            self.damping + self.contact + self.frame + self.scheme + self.parameters + self.hand;
         (lost, 0.0 - work)
     }
 
@@ -229,6 +318,8 @@ impl Ledger {
         }
         energies.damping = self.damping;
         energies.contact = self.contact;
+        energies.frame = self.frame;
+        energies.scheme = self.scheme;
         energies.parameters = self.parameters;
         energies.hand = self.hand;
         energies

@@ -38,6 +38,7 @@
 //! [`Snake::add_force`], [`Snake::hold`].
 
 mod account;
+mod algebra;
 mod body;
 mod certificate;
 mod crowd;

@@ -3,7 +3,7 @@
 use banded::Operator;
 use elastic::Material;
 use glam::{DMat2, DVec2};
-use integrator::{Fault, State, System, Touch};
+use integrator::{Fault, Meeting, State, System, Touch};
 
 use crate::account::Account;
 use crate::damping::Renewal;
@@ -419,16 +419,14 @@ impl System for Snake {
                 }
             }
         }
-        if let Some(account) = self.account.as_mut().filter(|_| !touches.is_empty()) {
-            account.x.clear();
-            account.x.extend_from_slice(x);
-            account.v.clear();
-            account.v.extend_from_slice(v);
-        }
     }
 
-    fn met(&mut self, t: f64, x: &[DVec2], v: &[DVec2]) {
-        self.book_contact(t, x, v);
+    fn met(&mut self, meeting: &Meeting<'_>) {
+        self.book_contact(meeting);
+    }
+
+    fn passed(&mut self, state: &State) {
+        self.note_passed(state);
     }
 
     fn contact_stiffness(&self) -> (f64, f64) {
