@@ -104,18 +104,23 @@ impl Snake {
         }
     }
 
-    /// Energy that schedules have put in between two states: what the change of the parameters alone
-    /// does to the energy, the mean of both places.
-    pub(crate) fn take_put_in(&mut self, before: &State, after: &State) -> f64 {
+    /// Energy that schedules have put in between two times: what the change of the parameters alone
+    /// does to the energy, the mean over the way by Simpson's rule: start, middle, end.
+    pub(crate) fn put_in(
+        &mut self,
+        (before, after): (f64, f64),
+        way: [(&[DVec2], &[DVec2]); 3],
+    ) -> f64 {
         if self.body.schedules.is_empty() {
             return 0.0;
         }
         let mut put_in = 0.0;
-        for state in [before, after] {
-            let own = |snake: &mut Self, t: f64| snake.own_energies(t, &state.x, &state.v);
-            put_in += own(self, after.t).mechanical() - own(self, before.t).mechanical();
+        for ((x, v), weight) in way.into_iter().zip([1.0, 4.0, 1.0]) {
+            let own = |snake: &mut Self, t: f64| snake.own_energies(t, x, v);
+            let change = own(self, after).mechanical() - own(self, before).mechanical();
+            put_in += weight / 6.0 * change;
         }
-        0.5 * put_in
+        put_in
     }
 
     /// What damping, internal damping and the dampers of penalty walls take at `state`, per unit of time and length of

@@ -67,6 +67,7 @@ pub(crate) struct Booked {
     pub(crate) damping: f64,
     pub(crate) frame: f64,
     pub(crate) scheme: f64,
+    pub(crate) parameters: f64,
     /// Of the forces without a potential, in the order of the bookings.
     pub(crate) works: Vec<f64>,
     pub(crate) contact: f64,
@@ -171,12 +172,10 @@ impl Algebra {
         // where the step led before anything was touched, and what carried it there
         let x = touched.as_ref().map_or(&to.x, |touched| &touched.before.0);
         let carried: Vec<DVec2> = (0..n)
-            .map(|i| {
-                if held[i] {
-                    DVec2::ZERO
-                } else {
-                    (x[i] - from.x[i]) / dt
-                }
+            .map(|i| match &touched {
+                _ if held[i] => DVec2::ZERO,
+                Some(touched) => touched.before.1[i],
+                None => (x[i] - from.x[i]) / dt,
             })
             .collect();
         let here = Seen::at(snake, to.t, x, &carried, bookings)?;
@@ -224,8 +223,14 @@ impl Algebra {
         }
         let store = self.store(last, &v, &held, dt) - self.store(&here, &full, &held, dt);
         booked.scheme += h * store;
-        booked.scheme += h * self.bend(snake, from, x, &here, bookings)?;
+        booked.scheme += h * self.bend(snake, from, (to.t, x), &here, bookings)?;
         booked.frame = work(&last.frame, &here.frame);
+        let half = |a: &[DVec2], b: &[DVec2]| -> Vec<DVec2> {
+            a.iter().zip(b).map(|(a, b)| 0.5 * (*a + *b)).collect()
+        };
+        let (middle_x, middle_v) = (half(&from.x, x), half(&v, &full));
+        let way = [(&from.x[..], &v[..]), (&middle_x, &middle_v), (x, &full)];
+        booked.parameters = snake.put_in((from.t, to.t), way);
         let pairs = last.loads.iter().zip(&here.loads);
         booked.works = pairs.map(|(first, second)| work(first, second)).collect();
         if let Some(touched) = &touched {
@@ -261,7 +266,7 @@ impl Algebra {
         &self,
         snake: &mut Snake,
         from: &State,
-        x: &[DVec2],
+        (t, x): (f64, &[DVec2]),
         here: &Seen,
         bookings: &[Booking],
     ) -> Result<f64, Fault> {
@@ -271,8 +276,7 @@ impl Algebra {
             .map(|(a, b)| 0.5 * (*a + *b))
             .collect();
         let mut force = vec![DVec2::ZERO; x.len()];
-        // parameters do not change on the way: what their change does is booked by itself
-        snake.conservative_force(from.t, &middle, bookings, &mut force)?;
+        snake.conservative_force(0.5 * (from.t + t), &middle, bookings, &mut force)?;
         let mut bend = 0.0;
         for i in 0..x.len() {
             let ends = self.last.pull[i] + here.pull[i];

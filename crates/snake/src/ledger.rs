@@ -136,7 +136,6 @@ impl Ledger {
             let booked = self.by_algebra(&mut algebra, snake, state, touched);
             self.algebra = Some(algebra);
             booked?;
-            self.parameters -= snake.take_put_in(&self.before, state);
             self.before.clone_from(state);
             return Ok(());
         }
@@ -144,8 +143,9 @@ impl Ledger {
         let dt = state.t - self.before.t;
         let smooth = touched.is_none();
         self.contact += touched.map_or(0.0, |touched| touched.lost);
-        self.parameters -= snake.take_put_in(&self.before, state);
         self.interpolate(state, dt);
+        let way = [&self.before, &self.middle, state].map(|state| (&state.x[..], &state.v[..]));
+        self.parameters -= snake.put_in((self.before.t, state.t), way);
         let loss = |state: &State| snake.loss(state);
         let (before, after) = (self.rate, loss(state));
         self.damping += h * if smooth {
@@ -197,12 +197,14 @@ impl Ledger {
             damping,
             frame,
             scheme,
+            parameters,
             works,
             contact,
         } = algebra.step(snake, &self.before, state, touched, &self.bookings)?;
         self.damping += damping;
         self.frame -= frame;
         self.scheme -= scheme;
+        self.parameters -= parameters;
         self.contact += contact;
         for (booking, work) in self.bookings.iter_mut().zip(works) {
             booking.work += work;

@@ -8,7 +8,7 @@ use scene::Scene;
 use snake::{Crowd, Energies, Timing, Upkeep};
 
 /// The terms of the account, as columns.
-pub(crate) const TERMS: [&str; 8] = [
+pub(crate) const TERMS: [&str; 9] = [
     "kinetic",
     "elastic",
     "outside",
@@ -17,6 +17,7 @@ pub(crate) const TERMS: [&str; 8] = [
     "damping",
     "contact",
     "parameters",
+    "scheme",
 ];
 
 /// What watching a crowd gave.
@@ -25,7 +26,7 @@ pub(crate) struct Course {
     /// Times of the account.
     pub t: Vec<f64>,
     /// One row a time, in the order of [`TERMS`].
-    pub terms: Vec<[f64; 8]>,
+    pub terms: Vec<[f64; 9]>,
     /// The deepest that any node was in another snake.
     pub deepest: f64,
     /// The greatest speed of a node.
@@ -54,7 +55,7 @@ pub(crate) fn crowd_of(id: &'static str, scene: &Scene) -> Result<Crowd, Sandbox
     Crowd::new(snakes, timing, contact, upkeep).map_err(SandboxError::refused(id))
 }
 
-fn terms(energies: &Energies) -> [f64; 8] {
+fn terms(energies: &Energies) -> [f64; 9] {
     [
         energies.kinetic,
         energies.elastic(),
@@ -64,6 +65,7 @@ fn terms(energies: &Energies) -> [f64; 8] {
         energies.damping,
         energies.contact,
         energies.parameters,
+        energies.frame + energies.scheme,
     ]
 }
 
