@@ -112,7 +112,9 @@ pub enum SchemeError {
         nearest: &'static str,
     },
     /// The matrix of an implicit step has no factor.
-    #[error("the step's matrix cannot be factored: {0}")]
+    #[error(
+        "the step's matrix cannot be factored: {0}; mass, damping or stiffness above 0 would do"
+    )]
     Matrix(#[from] BandedError),
 }
 

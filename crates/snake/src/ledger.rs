@@ -9,7 +9,8 @@ use crate::{Energies, Snake};
 
 /// Follows a run and keeps account of what has no potential.
 ///
-/// Between two states the motion is taken as the cubic through both places and velocities, and
+/// Under a scheme whose formulas it knows ([`Ledger::under`]) it counts as the scheme does, and the sum closes to
+/// rounding. Otherwise the motion between two states is taken as the cubic through both places and velocities, and
 /// powers are summed by Simpson's rule: an error of order 4 in the step where the scheme has one. A
 /// step with a contact, whose velocity jumps, is booked by the trapezoidal rule: order 2. What a
 /// contact takes is asked of the snake at the moment it happens.
