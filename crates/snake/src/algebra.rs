@@ -13,10 +13,11 @@
 //!   scheme = −ΔS,   S = −⅛ dt²/μ F^c·(F − γ v)
 //! ```
 //!
-//! where `scheme` is Δ½μv² of F^c alone, less its work by the trapezoidal rule, ½ (F^c + F^c⁺)·(x⁺ − x). S is a number of the state: what
-//! the energy lacks for velocities half a step late, and what a leapfrog's swings by. The trapezoidal rule is −ΔU where F^c is linear; elsewhere
-//! Simpson's rule on the same chord is nearer, and the difference, ⅓ (F^c + F^c⁺ − 2F^c_m)·(x⁺ − x), is the scheme's as well. Nothing here
-//! asks for an energy, except where a contact puts nodes elsewhere: that takes what energy and S were before, less what they are after.
+//! where `scheme` is Δ½μv² of F^c alone, less its work by the trapezoidal rule, `½ (F^c + F^c⁺)·(x⁺ − x)`. S is a number
+//! of the state: what the energy lacks for velocities half a step late, and what a leapfrog's swings by. The trapezoidal
+//! rule is −ΔU where F^c is linear; elsewhere Simpson's rule on the same chord is nearer, and the difference,
+//! `⅓ (F^c + F^c⁺ − 2 F^c in the middle)·(x⁺ − x)`, is the scheme's as well. Nothing here asks for an energy, except where a
+//! contact puts nodes elsewhere: that takes what energy and S were before, less what they are after.
 
 use elastic::Material;
 use glam::DVec2;
