@@ -163,6 +163,7 @@ impl Fit {
             field,
             start: State::at_rest(x),
             terms: None,
+            tips: None,
             company: None,
             snake,
             plan: Plan {

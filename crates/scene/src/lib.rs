@@ -25,6 +25,7 @@ mod contour;
 mod error;
 mod file;
 mod fit;
+mod growing;
 mod kinds;
 mod limits;
 pub mod numbers;

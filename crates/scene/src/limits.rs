@@ -31,6 +31,9 @@ pub(crate) const MOST_PIXEL_BYTES: u64 = 16;
 /// of text cost a second at most.
 pub(crate) const MOST_DRAWN: u64 = 1 << 22;
 
+/// Corners of a drawn road: each pixel asks every stretch.
+pub(crate) const MOST_CORNERS: usize = 64;
+
 /// Pixels times taps of a smoothing along one axis: about half a minute of work.
 pub(crate) const MOST_SMOOTHING: f64 = 1.7e10;
 

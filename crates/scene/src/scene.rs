@@ -7,7 +7,7 @@ use std::sync::Arc;
 use field::ForceField;
 use glam::DVec2;
 use integrator::{Scheme, SchemeError, Start, State};
-use snake::{Ledger, Outcome, Pace, Snake, Term, Turning, TurningStepper, Until};
+use snake::{Ledger, Outcome, Pace, Snake, Term, Tips, Turning, TurningStepper, Until};
 
 use crate::build::{USUAL_TOLERANCE, number};
 use crate::company::Company;
@@ -134,6 +134,8 @@ pub struct Scene {
     pub snake: Snake,
     /// The inertial forces of a frame that turns by its own equation (report §5.2); None for any other frame.
     pub terms: Option<Vec<Term>>,
+    /// Ends that grow, and after how many steps each time.
+    pub tips: Option<(Tips, u64)>,
     /// Whom it shares its world with, and how curves are kept in order.
     pub company: Option<Company>,
     /// Where it starts, and how fast.
@@ -233,6 +235,10 @@ impl Scene {
                                and would jump with it; leapfrog is the same motion and would do";
                 return Err(SceneError::key("run.scheme", message));
             }
+            if self.tips.is_some() {
+                let message = "\"auto\" is for curves of as many nodes; a number would do";
+                return Err(SceneError::key("run.dt", message));
+            }
             if self.terms.is_some() {
                 let message =
                     "\"auto\" is for frames without an equation of their own; a number would do";
@@ -258,6 +264,9 @@ impl Scene {
         self.check()?;
         if let Some(company) = self.company.clone() {
             return self.run_company(&company, observer);
+        }
+        if let Some((tips, every)) = self.tips.clone() {
+            return self.run_growing(tips, every, observer);
         }
         let plan = self.plan.clone();
         let mut state = self.start.clone();
@@ -342,7 +351,7 @@ fn turning(plan: &Plan, snake: &Snake, state: &State, terms: &[Term]) -> Result<
 }
 
 /// An error of the scheme, under the key it belongs to.
-fn refused(error: &SchemeError) -> SceneError {
+pub(crate) fn refused(error: &SchemeError) -> SceneError {
     let key = match error {
         SchemeError::BadStep { .. }
         | SchemeError::AboveLimit { .. }

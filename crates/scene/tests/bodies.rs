@@ -4,6 +4,7 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use glam::DVec2;
 use scene::elastic;
 use scene::snake::Certificate;
 use scene::{Record, SCENES, Scene};
@@ -207,5 +208,188 @@ fn a_picture_that_rotates_takes_a_turning_oval_with_it_and_strains_one_that_does
         ),
     ] {
         assert!(refused("turned-oval", &[(from, to)]).contains(says));
+    }
+}
+
+/// The distance of a place from the road of the scene of that name, and how far along the road it is.
+fn from_road(p: DVec2) -> (f64, f64) {
+    let corners = [
+        (-10.0, 96.0),
+        (10.0, 96.0),
+        (30.0, 95.1),
+        (46.0, 92.6),
+        (58.0, 88.5),
+        (68.0, 82.8),
+        (78.0, 74.0),
+        (88.0, 63.0),
+        (98.0, 51.7),
+        (110.0, 41.4),
+        (124.0, 33.9),
+        (138.0, 29.9),
+        (150.0, 28.4),
+        (160.0, 28.0),
+    ];
+    let (mut best, mut arc) = ((f64::INFINITY, 0.0), 0.0);
+    for pair in corners.windows(2) {
+        let (a, b) = (DVec2::from(pair[0]), DVec2::from(pair[1]));
+        let along = b - a;
+        let share = ((p - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        let off = p.distance(a + share * along);
+        if off < best.0 {
+            best = (off, arc + share * along.length());
+        }
+        arc += along.length();
+    }
+    best
+}
+
+#[test]
+fn tips_find_a_whole_road_in_noise_from_one_stretch_of_it_and_stop_where_it_ends() {
+    let mut scene = Scene::named("road").unwrap();
+    let record = run(&mut scene);
+    let last = &record.frames.last().unwrap().nodes;
+    println!("{:?} {} {:?}", record.events, record.outcome, last.len());
+    let worst = last.iter().map(|&p| from_road(p).0).fold(0.0, f64::max);
+    // the road is 4 wide, the noise a fifth of its height, smoothed over some 25 pixels
+    assert!(worst < 1.5, "{worst}");
+    let (head, tail) = (last[0], last[last.len() - 1]);
+    // one end leaves the picture at x = 0, the other is at (160, 28); a look ahead is one and a half spacings of 2.8
+    assert!(head.x < 5.0, "{head}");
+    assert!(tail.distance(DVec2::new(160.0, 28.0)) < 5.0, "{tail}");
+    assert_eq!(record.events.len(), 2, "{:?}", record.events);
+    assert!(record.outcome.is_good());
+}
+
+#[test]
+fn ends_on_the_border_slide_along_it_to_the_edge() {
+    let mut scene = Scene::named("sliding-strip").unwrap();
+    let record = run(&mut scene);
+    let last = &record.frames.last().unwrap().nodes;
+    for (at, x) in [(last[0], 0.0), (last[39], 95.0)] {
+        // the box begins in the middle of row 40
+        assert!(
+            (at.x - x).abs() < 1e-9 && (at.y - 40.0).abs() < 0.05,
+            "{at}"
+        );
+    }
+    assert_eq!(record.outcome.name(), "settled");
+    // pinned ones stay where they were let go
+    let pinned = [(
+        "\"border\", tail = \"border\"",
+        "\"pinned\", tail = \"pinned\"",
+    )];
+    let pinned = run(&mut changed("sliding-strip", &pinned).unwrap());
+    assert!((pinned.frames.last().unwrap().nodes[0].y - 34.0).abs() < 1e-12);
+}
+
+#[test]
+fn the_third_order_closes_the_account_and_lowers_the_step_as_theory_says() {
+    let energies = [
+        ("[record]", "[record]\nenergies = true"),
+        ("time = 200.0\nrest = {}", "time = 20.0"),
+    ];
+    let mut scene = changed("third-order", &energies).unwrap();
+    let h = scene.snake.body().spacing;
+    let steep = 4.0 / (h * h);
+    let limit = 2.0 / (5.0 * steep + 1e4 * steep.powi(3)).sqrt();
+    assert!((scene.step_limit().unwrap() / limit - 1.0).abs() < 1e-9);
+    let record = run(&mut scene);
+    assert!(record.terms.iter().any(|name| name == "higher"));
+    let total = |k: usize| record.frames[k].energies.as_ref().unwrap().total();
+    let first = record.frames[0].energies.as_ref().unwrap();
+    let most = first
+        .values()
+        .iter()
+        .fold(0.0_f64, |a, b| a.max(b.abs()))
+        .max(100.0);
+    // leapfrog at a seventh of its limit: (1/7)² / 24 of the stiffest term at most
+    assert!((total(record.frames.len() - 1) - total(0)).abs() < 2e-3 * most);
+    for (from, to, says) in [
+        ("higher = [10000.0]", "higher = [-1.0]", "weight of order 3"),
+        (
+            "higher = [10000.0]",
+            "higher = [1.0, 1.0, 1.0, 1.0, 1.0]",
+            "orders 0 to at most 6",
+        ),
+        ("topology", "frame = \"turning\"\ntopology", "does not turn"),
+        (
+            "[material]",
+            "[upkeep]\nstretch = 2.0\n[material]",
+            "without [upkeep]",
+        ),
+    ] {
+        let message = refused("third-order", &[(from, to)]);
+        assert!(
+            message.starts_with("material.higher: ") && message.contains(says),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn ends_and_tips_that_will_not_do_are_refused_by_their_key() {
+    for (name, from, to, says) in [
+        (
+            "sliding-strip",
+            "\"border\", tail",
+            "\"bordr\", tail",
+            "did you mean \"border\"",
+        ),
+        (
+            "sliding-strip",
+            "\"border\", tail",
+            "{ rail = [[0.0, 0.0]] }, tail",
+            "snake.topology.head",
+        ),
+        (
+            "sliding-strip",
+            "\"border\", tail",
+            "{ rail = [[20.0, 0.0], [20.0, 80.0]] }, tail",
+            "from the line it slides along",
+        ),
+        (
+            "road",
+            "topology = { head = \"free\"",
+            "topology = { head = \"pinned\"",
+            "tips: ends that grow need ends that are free",
+        ),
+        (
+            "road",
+            "tension = 60.0",
+            "tension = { along = [[0.0, 1.0], [1.0, 2.0]] }",
+            "the same all along",
+        ),
+        (
+            "road",
+            "least = 0.45",
+            "lest = 0.45",
+            "did you mean \"least\"",
+        ),
+        ("road", "every = 40\n", "every = 0\n", "tips.every"),
+        (
+            "road",
+            "[record]",
+            "[record]\nenergies = true",
+            "record.energies",
+        ),
+        (
+            "road",
+            "kind = \"line\"",
+            "kind = \"gravity\"\nacceleration = [0.0, 1.0]",
+            "fields of the picture",
+        ),
+        (
+            "road",
+            "width = 4.0",
+            "width = -4.0",
+            "picture.drawn.region.road.width",
+        ),
+    ] {
+        let text = if to.starts_with("kind = \"gravity\"") {
+            refused(name, &[("sigma = 3.0\nstrength = 0.3", ""), (from, to)])
+        } else {
+            refused(name, &[(from, to)])
+        };
+        assert!(text.contains(says), "{to}: {text}");
     }
 }

@@ -42,7 +42,7 @@ y = §up§"up"
 [picture.drawn]
 §drawn§
 size = [64, 64]
-region = { §region§ circle = { §circle§ center = [32.0, 32.0], radius = 9.0 } }
+region = { §region§ §road§ circle = { §circle§ center = [32.0, 32.0], radius = 9.0 } }
 [field]
 §field§
 weight = { §along§ along = [[0.0, 1.0]] }
@@ -55,10 +55,12 @@ acceleration = [0.0, 0.0]
 [snake]
 §snake§
 nodes = 20
-topology = §topology§{ §ends§ head = §end§"free", tail = "free" }
+topology = §topology§{ §ends§ head = §end§§rail§"free", tail = "free" }
 frame = §frame§§terms§§term§"turning"
 start = { §shape§ ellipse = { §ellipse§ center = [32.0, 32.0], axes = [9.0, 8.0] } }
 rest = { segment = { §segment§ from = [0.0, 0.0], to = [9.0, 0.0] } }
+§tips§
+§tip-ends§
 [[also]]
 §also§
 velocity = [0.0, 0.0]
@@ -122,6 +124,10 @@ fn known(place: &str) -> Vec<String> {
     let wrong = match place {
         "rule" | "up" | "end" | "border" | "kind" => "\"zzz\" #",
         "topology" | "frame" => "\"zzz\" #",
+        "rail" => "{ zzz = 1 } } #",
+        "road" => "road = { zzz = 1 } } #",
+        "tips" => "[tips]\nzzz = 1",
+        "tip-ends" => "[tips]\nends = \"zzz\"",
         "terms" => "{ zzz = 1 } #",
         "term" => "{ terms = [\"zzz\"] } #",
         "root" | "view" | "picture" | "drawn" | "field" | "snake" | "material" | "densities"
@@ -167,7 +173,11 @@ fn known_of(kind: &str) -> Vec<String> {
     list.split(", ").map(str::to_owned).collect()
 }
 
-const PLACES: [&str; 38] = [
+const PLACES: [&str; 42] = [
+    "tips",
+    "tip-ends",
+    "road",
+    "rail",
     "frame",
     "terms",
     "term",

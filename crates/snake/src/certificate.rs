@@ -92,7 +92,7 @@ impl Certificate {
         // what a slope at each node by itself does not hold
         let between = felt(snake, state, Acting::couples);
         let image_slope = pull.stiffness;
-        let (contact, _) = snake.contact_stiffness();
+        let (contact, _) = snake.world().contact_stiffness();
         let (modes, complete) = modes(snake);
         let felt = Felt { snake, pull };
         let coupled = Felt {

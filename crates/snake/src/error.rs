@@ -30,6 +30,21 @@ pub enum SnakeError {
         /// What would do.
         needed: &'static str,
     },
+    /// Something that elastic terms above the second order cannot have.
+    #[error("elastic terms above the second order need {needed}")]
+    NotOfHigherOrder {
+        /// What would do.
+        needed: &'static str,
+    },
+    /// A snake whose ends cannot grow.
+    #[error("ends that grow need {needed}")]
+    CannotGrow {
+        /// What would do.
+        needed: &'static str,
+    },
+    /// A line that nothing can slide along.
+    #[error(transparent)]
+    Line(#[from] outline::OutlineError),
     /// A mode that the body has not.
     #[error("there is no mode {mode} that resists: the body has {modes} of them")]
     NoMode {

@@ -5,6 +5,7 @@ mod curve;
 mod edge;
 mod freeze;
 mod gravity;
+mod higher;
 mod image;
 mod path;
 mod pressure;
@@ -18,6 +19,7 @@ pub use curve::Curve;
 pub use edge::SignedEdgeForce;
 pub use freeze::Freeze;
 pub use gravity::Gravity;
+pub use higher::Higher;
 pub use image::{ImageForce, Sampling};
 pub use path::Path;
 pub use pressure::Pressure;
@@ -84,6 +86,11 @@ pub trait Force: fmt::Debug + Send + Sync {
     fn pull(&self, spacing: f64, curve: Option<&Curve<'_>>) -> Pull {
         let _ = (spacing, curve);
         Pull::default()
+    }
+
+    /// How stiff it is whatever the curve does, for step limits: of elastic forces that are in no matrix. M T⁻².
+    fn stiffness(&self) -> f64 {
+        0.0
     }
 
     /// Whether the force on a node depends on where others are, so that [`Force::add_slope`] is not

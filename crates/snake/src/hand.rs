@@ -121,6 +121,12 @@ impl Snake {
     /// Be the snake `old` was, on other nodes: hold those that are mostly of held ones.
     pub(crate) fn follow(&mut self, old: &Self, plan: &Plan) -> Result<(), SnakeError> {
         self.changes = old.changes;
+        let last = self.body.len() - 1;
+        for (node, rail) in &old.rails {
+            // it is an end that slides, and ends stay ends
+            let node = if *node == 0 { 0 } else { last };
+            self.rails.push((node, rail.clone()));
+        }
         let share = |node: usize| -> f64 {
             let held = |&&(from, _): &&(u32, f64)| old.grasped.get(from as usize) == Some(&true);
             let terms = plan.convex(node).iter().filter(held);

@@ -55,7 +55,9 @@ mod rest;
 mod run;
 mod schedule;
 mod settling;
+mod slide;
 mod snake;
+mod tips;
 mod turn;
 mod turning;
 mod turning_stepper;
@@ -69,8 +71,8 @@ pub use damping::Damping;
 pub use energy::Energies;
 pub use error::SnakeError;
 pub use force::{
-    Acting, Curve, Force, Freeze, Gravity, ImageForce, Path, Pressure, Pull, RegionForce, Repulsor,
-    Sampling, SignedEdgeForce, Spring, Turned,
+    Acting, Curve, Force, Freeze, Gravity, Higher, ImageForce, Path, Pressure, Pull, RegionForce,
+    Repulsor, Sampling, SignedEdgeForce, Spring, Turned,
 };
 pub use ledger::Ledger;
 pub use pace::Pace;
@@ -79,6 +81,7 @@ pub use run::{Outcome, Until, run};
 pub use schedule::{Schedule, Schedules};
 pub use settling::{Settling, TimeToRest};
 pub use snake::Snake;
+pub use tips::Tips;
 pub use turn::Turn;
 pub use turning::{Term, Turning};
 pub use turning_stepper::TurningStepper;

@@ -37,6 +37,8 @@ pub struct Snake {
     pub(crate) inner: Option<Inner>,
     /// Damping that is chosen again and again.
     pub(crate) renewal: Option<Renewal>,
+    /// Nodes that slide, each along its line.
+    pub(crate) rails: Vec<(usize, outline::Rail)>,
     pub(crate) deformation: Vec<DVec2>,
     pub(crate) account: Option<Account>,
     /// Someone changed the body: the schemes are to be told.
@@ -69,6 +71,7 @@ impl Snake {
             turning,
             inner,
             renewal: None,
+            rails: Vec::new(),
             any_held: held.contains(&true),
             pushes,
             grasped: vec![false; n],
@@ -218,6 +221,7 @@ impl Snake {
         new.account = self.account.take();
         (new.changes, new.asked) = (self.changes, self.asked);
         new.grasped.clone_from(&self.grasped);
+        new.rails.clone_from(&self.rails);
         new.hold_again()?;
         new.note();
         *self = new;
@@ -266,7 +270,8 @@ impl Snake {
                 .iter()
                 .map(|wall| wall.force(state.x[i], DVec2::ZERO))
                 .sum();
-            largest = largest.max(self.pushed(state.x[i], *force + sprung).length());
+            let pushed = self.pushed(state.x[i], *force + sprung);
+            largest = largest.max(self.along_rail(i, state.x[i], pushed).length());
         }
         largest
     }
@@ -385,6 +390,7 @@ impl System for Snake {
         }
         self.add_turn(x, force);
         self.add_inner(x, v, force);
+        self.push_of_rails(x, force);
         if let Some(renewal) = &mut self.renewal {
             renewal.see(x);
         }
@@ -393,6 +399,7 @@ impl System for Snake {
 
     fn external_is_constant(&self) -> bool {
         let still = self.turning.is_none() && self.inner.is_none() && self.renewal.is_none();
+        let still = still && self.rails.is_empty();
         still
             && self.world.forces.iter().all(Acting::is_constant)
             && !self.world.walls.iter().any(Wall::is_spring)
@@ -406,10 +413,14 @@ impl System for Snake {
         v: &[DVec2],
         touches: &mut Vec<Touch>,
     ) {
-        if self.world.walls.iter().all(Wall::is_spring) {
+        if self.world.walls.iter().all(Wall::is_spring) && self.rails.is_empty() {
             return;
         }
+        self.back_on_rails(x, v, touches);
         for (node, (&x, &v)) in x.iter().zip(v).enumerate() {
+            if self.slides(node) {
+                continue;
+            }
             let (mut place, mut velocity) = (x, v);
             for wall in &self.world.walls {
                 if let Some(touch) = wall.touch(node, place, velocity) {
@@ -432,7 +443,9 @@ impl System for Snake {
     fn contact_stiffness(&self) -> (f64, f64) {
         let (stiffness, damping) = self.world.contact_stiffness();
         let inner = self.inner.as_ref().map_or(0.0, Inner::bound);
-        (stiffness, damping + inner)
+        let forces = self.world.forces.iter();
+        let elastic: f64 = forces.map(|acting| acting.force().stiffness()).sum();
+        (stiffness + elastic, damping + inner)
     }
 
     fn external_slope(&mut self, t: f64, x: &[DVec2], slope: &mut [DMat2]) -> bool {

@@ -5,7 +5,7 @@ use std::path::Path;
 use elastic::{Material, Profile, SpacingRule};
 use glam::DVec2;
 use integrator::State;
-use snake::{Body, Damping, Frame, Schedule, Schedules, Snake, Term};
+use snake::{Body, Damping, Frame, Higher, Schedule, Schedules, Snake, Term, World};
 
 use super::shape::{self, nodes, topology};
 use super::{Rules, number, refused};
@@ -169,6 +169,27 @@ pub(super) fn body(text: &SceneText, rules: Rules, folder: &Path) -> Result<Body
     body.validate().map_err(|e| refused(key, &e))?;
     body.recenter().map_err(|e| refused(key, &e))?;
     Ok(body)
+}
+
+/// The world with the elastic terms above the second order in it, if there are any.
+pub(super) fn higher(text: &SceneText, body: &Body, world: World) -> Result<World, SceneError> {
+    let weights = &text.material.higher;
+    if weights.is_empty() {
+        return Ok(world);
+    }
+    let refuse = |message: &dyn std::fmt::Display| SceneError::key("material.higher", message);
+    if text.upkeep.is_some() || text.tips.is_some() {
+        return Err(refuse(
+            &"is for nodes that stay as many; without [upkeep] and [tips] it would do",
+        ));
+    }
+    let higher = Higher::new(body, weights).map_err(|e| refuse(&e))?;
+    if world.names().any(|name| name == "higher") {
+        return Err(refuse(
+            &"has a column of its own in records; another name for the force would do",
+        ));
+    }
+    Ok(world.with(higher))
 }
 
 /// Let the rules of `[densities]` choose the damping of a snake, which is at `start`.

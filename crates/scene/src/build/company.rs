@@ -4,7 +4,7 @@ use std::path::Path;
 
 use snake::{Contact, Plastic, Snake, Upkeep};
 
-use super::{Rules, body, number, refused, world};
+use super::{Rules, body, ends, number, refused, world};
 use crate::company::Company;
 use crate::file::{AlsoText, ContactText, SceneText, UpkeepText};
 use crate::limits::MOST_SNAKES;
@@ -40,7 +40,7 @@ pub(super) fn company(
         let start = body::start(&own, &shape, rules, folder).map_err(within)?;
         // the same forces, unless their weights are meant for another number of nodes or they know the curve
         let same = shape.len() == first.body().len() && !super::force::remembers(&own.force);
-        let surroundings = if same {
+        let surroundings = if same && own.material.higher.is_empty() {
             first.world().clone()
         } else {
             let mut unsaid = Vec::new();
@@ -54,8 +54,10 @@ pub(super) fn company(
             );
             world.map_err(within)?.0
         };
+        let surroundings = body::higher(&own, &shape, surroundings).map_err(within)?;
         let mut snake =
             Snake::new(shape, surroundings).map_err(|e| within(refused("snake", &e)))?;
+        ends::slide(&own, &mut snake, &start, picture).map_err(within)?;
         body::damp(&own, &mut snake, &start).map_err(within)?;
         match &also.at {
             None => others.push((snake, start)),

@@ -3,6 +3,7 @@
 mod body;
 mod company;
 mod edge_field;
+mod ends;
 pub(crate) mod force;
 pub(crate) mod number;
 mod plan;
@@ -96,8 +97,11 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         body.topology.is_closed(),
         &mut notes,
     )?;
+    let world = body::higher(text, &body, world)?;
     let mut snake = Snake::new(body, world).map_err(|e| refused("snake", &e))?;
+    ends::slide(text, &mut snake, &start, picture.as_ref())?;
     body::damp(text, &mut snake, &start)?;
+    let tips = ends::tips(text, &snake, picture.as_ref())?;
     let terms = body::terms(text)?;
     if terms.is_some() {
         Turning::new(&snake).map_err(|e| SceneError::key("snake.frame", e))?;
@@ -113,6 +117,7 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         field,
         snake,
         terms,
+        tips,
         company,
         start,
         plan,

@@ -6,15 +6,16 @@ use elastic::{ElasticError, End, Parameter, Topology};
 use glam::DVec2;
 
 use super::{Rules, number, points};
-use crate::file::{EndText, OpenClosed, Rule, SceneText, ShapeText, TopologyText};
+use crate::file::{EndText, EndWord, OpenClosed, Rule, SceneText, ShapeText, TopologyText};
 use crate::limits::MOST_NODES;
 use crate::{Contour, SceneError, catalogue};
 
 pub(super) fn topology(text: &TopologyText, rules: Rules) -> Topology {
-    let end = |end: EndText| match end {
-        EndText::Free => End::Free,
-        EndText::Anchored => End::Anchored,
-        EndText::Pinned => End::Pinned,
+    let end = |end: &EndText| match end {
+        EndText::Word(EndWord::Free | EndWord::Border) | EndText::Rail(_) => End::Free,
+        EndText::Word(EndWord::Anchored) => End::Anchored,
+        EndText::Word(EndWord::Pinned) => End::Pinned,
+        EndText::Word(EndWord::Clamped) => End::Clamped,
     };
     match text {
         TopologyText::Word(OpenClosed::Closed) => Topology::Closed,
@@ -24,8 +25,8 @@ pub(super) fn topology(text: &TopologyText, rules: Rules) -> Topology {
             End::Free
         }),
         TopologyText::Ends(ends) => Topology::Open {
-            head: end(ends.head),
-            tail: end(ends.tail),
+            head: end(&ends.head),
+            tail: end(&ends.tail),
         },
     }
 }

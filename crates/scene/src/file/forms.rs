@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Deserializer};
 
-use super::{EachRule, EndsText, OpenClosed, Rule};
+use super::{EachRule, EndWord, EndsText, OpenClosed, RailText, Rule};
 
 /// A number, one number a node, or points along the curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,6 +88,27 @@ impl<'de> Deserialize<'de> for TopologyText {
             toml::Value::Table(_) => inner(value).map(Self::Ends),
             other => Err(wrong(
                 "\"open\", \"closed\" or { head = …, tail = … }",
+                &other,
+            )),
+        }
+    }
+}
+
+/// An end: a word, or the line that it slides along.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum EndText {
+    Word(EndWord),
+    Rail(RailText),
+}
+
+impl<'de> Deserialize<'de> for EndText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = toml::Value::deserialize(deserializer)?;
+        match value {
+            toml::Value::String(_) => inner(value).map(Self::Word),
+            toml::Value::Table(_) => inner(value).map(Self::Rail),
+            other => Err(wrong(
+                "\"free\", another word or { rail = [[x, y], …] }",
                 &other,
             )),
         }

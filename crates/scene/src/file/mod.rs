@@ -12,8 +12,8 @@ use serde::Deserialize;
 pub(crate) use company::{AlsoText, ContactText, UpkeepText};
 pub(crate) use force::*;
 pub(crate) use forms::{
-    DampingText, FrameText, FrameWord, InternalText, OutputText, ProfileText, RulesText, StepText,
-    TermText, TopologyText,
+    DampingText, EndText, FrameText, FrameWord, InternalText, OutputText, ProfileText, RulesText,
+    StepText, TermText, TopologyText,
 };
 
 #[derive(Debug, Clone, Deserialize)]
@@ -44,6 +44,7 @@ pub(crate) struct SceneText {
     pub contact: Option<ContactText>,
     #[serde(default)]
     pub upkeep: Option<UpkeepText>,
+    pub tips: Option<TipsText>,
     pub material: MaterialText,
     pub densities: DensitiesText,
     #[serde(default)]
@@ -153,6 +154,15 @@ pub(crate) enum RegionText {
     Box([f64; 4]),
     Ellipse(EllipseText),
     Circle(CircleText),
+    Road(RoadText),
+}
+
+/// What is no farther than half a width from a polyline.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct RoadText {
+    pub points: Vec<[f64; 2]>,
+    pub width: f64,
 }
 
 /// Whether a field is made where a curve goes, or as a whole.
@@ -217,10 +227,40 @@ pub(crate) enum ShapeText {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum EndText {
+pub(crate) enum EndWord {
     Free,
     Anchored,
     Pinned,
+    Clamped,
+    /// Free along the border of the picture.
+    Border,
+}
+
+/// A free end that slides along a line.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RailText {
+    pub rail: Vec<[f64; 2]>,
+}
+
+/// Ends that grow.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct TipsText {
+    pub ends: Option<TipsWord>,
+    pub shade: Option<ShadeText>,
+    pub sigma: Option<f64>,
+    pub least: Option<f64>,
+    pub every: Option<u64>,
+    pub most: Option<usize>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum TipsWord {
+    Both,
+    Head,
+    Tail,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -266,6 +306,9 @@ pub(crate) struct MaterialText {
     /// Nodes after which the curve may part.
     #[serde(default)]
     pub breaks: Vec<usize>,
+    /// Weights of the orders 3, 4 and on.
+    #[serde(default)]
+    pub higher: Vec<f64>,
 }
 
 #[derive(Debug, Clone, Deserialize)]

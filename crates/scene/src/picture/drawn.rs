@@ -7,7 +7,7 @@ use super::Picture;
 use crate::SceneError;
 use crate::build::{number, smoothing};
 use crate::file::{DrawnText, RegionText};
-use crate::limits::MOST_DRAWN;
+use crate::limits::{MOST_CORNERS, MOST_DRAWN};
 
 impl Picture {
     /// A picture drawn from numbers: a region on a ground, blurred, with noise from a seed.
@@ -48,6 +48,12 @@ impl Picture {
                 let turned = DVec2::from_angle(-e.angle).rotate(p - DVec2::from_array(e.center));
                 (turned / DVec2::from_array(e.axes)).length_squared() <= 1.0
             }
+            RegionText::Road(road) => road.points.windows(2).any(|pair| {
+                let (a, b) = (DVec2::from_array(pair[0]), DVec2::from_array(pair[1]));
+                let along = b - a;
+                let share = (p - a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
+                p.distance(a + along * share.clamp(0.0, 1.0)) <= 0.5 * road.width
+            }),
         };
         let share = |center: DVec2| {
             // each region is convex: with its four outermost points a pixel is inside as a whole
@@ -98,6 +104,18 @@ impl Picture {
 fn check_region(region: &RegionText) -> Result<(), SceneError> {
     let at = |name: &str| format!("picture.drawn.region.{name}");
     match region {
+        RegionText::Road(road) => {
+            number::length(&at("road.width"), road.width)?;
+            let points = road.points.iter().map(|&p| DVec2::from_array(p));
+            number::places(&at("road.points"), &points.collect::<Vec<_>>())?;
+            if (2..=MOST_CORNERS).contains(&road.points.len()) {
+                Ok(())
+            } else {
+                let (got, most) = (road.points.len(), MOST_CORNERS);
+                let message = format!("has {got} places; from 2 to {most} would do");
+                Err(SceneError::key(&at("road.points"), message))
+            }
+        }
         RegionText::RightOf(x) => number::coordinate(&at("right-of"), *x).map(drop),
         RegionText::Box([x0, y0, x1, y1]) => {
             number::place(&at("box"), [*x0, *y0])?;
