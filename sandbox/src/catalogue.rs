@@ -2,15 +2,16 @@
 
 use crate::Experiment;
 use crate::experiments::{
-    angle, apple, atlas, ball, corners, curvature, damping, damping_rules, decomposition, disc,
-    ends, energy, force_field, forces, matrix, profiles, rest_traps, signal, smoothing, soft,
-    time_step, turned_picture, turning,
+    angle, apple, atlas, ball, balloon, corners, curvature, damping, damping_rules, decomposition,
+    disc, ends, energy, force_field, forces, matrix, open_curves, orders, profiles, rest_traps,
+    signal, smoothing, soft, time_step, turned_picture, turning,
 };
 
 /// Every experiment. A new one is added here and nowhere else.
 pub const EXPERIMENTS: &[&Experiment] = &[
     &decomposition::DECOMPOSITION,
     &energy::ENERGY,
+    &orders::ORDERS,
     &ball::VERY_SOFT,
     &ball::SOFT,
     &ball::RIGID,
@@ -63,6 +64,8 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &curvature::CURVATURE,
     &turning::TURNING,
     &turned_picture::PICTURE,
+    &balloon::BALLOON,
+    &open_curves::OPEN_CURVES,
 ];
 
 /// The experiment of that name.
