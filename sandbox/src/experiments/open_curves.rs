@@ -84,7 +84,7 @@ pub(crate) const OPEN_CURVES: Experiment = Experiment {
             },
         },
         Claim {
-            says: "ends that slide on the border carry the whole strip to the edge; pinned and clamped ones hold theirs off it",
+            says: "ends that slide on the border carry the whole strip to the edge; free ones leave the border, pinned and clamped ones hold theirs off the edge",
             source: "elastic::Hold",
             judge: |r| {
                 let (border, pinned) = (
@@ -93,7 +93,10 @@ pub(crate) const OPEN_CURVES: Experiment = Experiment {
                 );
                 let off = r.number("border: ends off the border")?;
                 Ok(Finding::new(
-                    border < 0.1 && pinned > 5.0 && off < 1e-9,
+                    border < 0.1
+                        && pinned > 5.0
+                        && off < 1e-9
+                        && r.number("free: ends off the border")? > 5.0,
                     format!(
                         "{border:.3} px at most, on the border to {off:.0e}; pinned {pinned:.1} px"
                     ),
