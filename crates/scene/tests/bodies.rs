@@ -248,7 +248,6 @@ fn tips_find_a_whole_road_in_noise_from_one_stretch_of_it_and_stop_where_it_ends
     let mut scene = Scene::named("road").unwrap();
     let record = run(&mut scene);
     let last = &record.frames.last().unwrap().nodes;
-    println!("{:?} {} {:?}", record.events, record.outcome, last.len());
     let worst = last.iter().map(|&p| from_road(p).0).fold(0.0, f64::max);
     // the road is 4 wide, the noise a fifth of its height, smoothed over some 25 pixels
     assert!(worst < 1.5, "{worst}");
@@ -392,4 +391,33 @@ fn ends_and_tips_that_will_not_do_are_refused_by_their_key() {
         };
         assert!(text.contains(says), "{to}: {text}");
     }
+}
+
+#[test]
+fn sliding_along_a_straight_border_takes_no_energy_and_the_account_closes() {
+    let keep = [
+        ("every = 100", "every = 10\nenergies = true"),
+        ("time = 400.0", "time = 60.0"),
+    ];
+    let strays = |step: &str| {
+        let mut scene = changed("sliding-strip", &[keep[0], keep[1], ("dt = 0.05", step)]).unwrap();
+        let record = run(&mut scene);
+        let totals = record
+            .frames
+            .iter()
+            .map(|f| f.energies.as_ref().unwrap().total());
+        let first = record.frames[0].energies.as_ref().unwrap().total();
+        let last = record.frames.last().unwrap().energies.as_ref().unwrap();
+        assert!(last.contact.abs() < 1e-9, "{}", last.contact);
+        (
+            totals.map(|t| (t - first).abs()).fold(0.0, f64::max),
+            last.damping,
+        )
+    };
+    let ((coarse, lost), (fine, _)) = (strays("dt = 0.05"), strays("dt = 0.025"));
+    println!("{coarse} {fine} {lost}");
+    assert!(
+        fine < coarse && coarse < 0.03 * lost,
+        "{coarse} {fine} {lost}"
+    );
 }

@@ -379,6 +379,8 @@ impl System for Snake {
         force: &mut [DVec2],
     ) -> Result<(), Fault> {
         self.asked += 1;
+        // the buffer may hold the elastic force already
+        let held: Vec<DVec2> = self.rails.iter().map(|(node, _)| force[*node]).collect();
         let (forces, curve) = self.forces(t, x, v);
         for acting in forces {
             acting.add(&curve, force)?;
@@ -390,7 +392,7 @@ impl System for Snake {
         }
         self.add_turn(x, force);
         self.add_inner(x, v, force);
-        self.push_of_rails(x, force);
+        self.push_of_rails(x, &held, force);
         if let Some(renewal) = &mut self.renewal {
             renewal.see(x);
         }
