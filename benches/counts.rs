@@ -18,7 +18,7 @@ use field::{EdgeForce, Grid, Interpolation};
 use glam::DVec2;
 use integrator::problems;
 use integrator::{Scheme, Start, State};
-use snake::{Body, Snake, World};
+use snake::{Body, Contact, Crowd, Snake, Timing, Upkeep, World};
 
 /// How far a count may be from the pinned one, relative.
 const ALLOWED: f64 = 0.02;
@@ -31,7 +31,7 @@ type Outcome<T> = Result<T, Box<dyn Error>>;
 /// Something to count: set up once, then run as often as asked.
 type Kernel = fn(u32) -> Outcome<()>;
 
-const KERNELS: [(&str, Kernel); 11] = [
+const KERNELS: [(&str, Kernel); 15] = [
     ("banded-solve/1000", solve),
     ("elastic-force/1000", elastic_force),
     ("leapfrog-step/1000", |times| {
@@ -48,6 +48,10 @@ const KERNELS: [(&str, Kernel); 11] = [
         stiff(Scheme::Gauss4, 200, times)
     }),
     ("exact-step/200", |times| stiff(Scheme::Exact, 200, times)),
+    ("crowd-step/10x16", |times| crowd(10, times)),
+    ("crowd-step/100x16", |times| crowd(100, times)),
+    ("outline-resolve/1000", resolve),
+    ("outline-slide/1000", slide),
     ("field-sample/1000", sample),
     ("field-report/64x64", report),
     ("field-edge/64x64", edge),
@@ -109,6 +113,69 @@ fn stiff(scheme: Scheme, n: usize, times: u32) -> Outcome<()> {
     let mut stepper = scheme.start(&mut system, &state, 0.04, Start::SecondOrder)?;
     for _ in 0..times {
         stepper.step(&mut system, &mut state)?;
+    }
+    Ok(())
+}
+
+/// Rings of 16 nodes in rows, all touching their neighbors: ten times as many should take ten times as long.
+fn crowd(rings: u32, times: u32) -> Outcome<()> {
+    let mut snakes = Vec::new();
+    for k in 0..rings {
+        let at = 2.05 * DVec2::new(f64::from(k % 10), f64::from(k / 10));
+        let nodes = elastic::circle(at, 1.0, 16);
+        let body = Body::of(&nodes, Topology::Closed, 1.0)?
+            .with_material(Material::uniform(1.0, 1.0, 0.1));
+        snakes.push((Snake::new(body, World::default())?, State::at_rest(nodes)));
+    }
+    let timing = Timing {
+        scheme: Scheme::Leapfrog,
+        dt: 1e-3,
+        tolerance: None,
+        start: Start::SecondOrder,
+        force: false,
+    };
+    let law = Contact {
+        stiffness: 50.0,
+        damping: 1.0,
+        friction: 0.3,
+        wall_friction: 0.0,
+        stick: 1.0,
+        adhesion: 0.0,
+        range: 0.0,
+        gap: 0.1,
+        stop: 0.1,
+        own: false,
+    };
+    let mut crowd = Crowd::new(snakes, timing, Some(law), Upkeep::default())?;
+    for _ in 0..times {
+        crowd.step()?;
+    }
+    black_box(crowd.momentum());
+    Ok(())
+}
+
+/// A figure of eight, whose one crossing is cut.
+fn eight() -> Vec<DVec2> {
+    let node = |i: u32| {
+        let angle = 0.3 + std::f64::consts::TAU * f64::from(i) / 1000.0;
+        DVec2::new(150.0 * angle.sin(), 80.0 * (2.0 * angle).sin())
+    };
+    (0..1000).map(node).collect()
+}
+
+fn resolve(times: u32) -> Outcome<()> {
+    let nodes = eight();
+    for _ in 0..times {
+        black_box(outline::resolve(black_box(&nodes), 1.0)?);
+    }
+    Ok(())
+}
+
+fn slide(times: u32) -> Outcome<()> {
+    let nodes = elastic::ellipse(DVec2::ZERO, DVec2::new(200.0, 50.0), 0.0, 1000);
+    for _ in 0..times {
+        let plan = outline::slide(black_box(&nodes), true, 900, outline::Between::Cubic)?;
+        black_box(plan.draw(&nodes)?);
     }
     Ok(())
 }
