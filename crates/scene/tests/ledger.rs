@@ -16,6 +16,9 @@ use scene::{Frame, Recording, SCENES, Scene};
 /// derived; measured. Adhesion, whose energy is below 0 and says little of its force, leaves the single step open as well.
 const OPEN: &[(&str, f64)] = &[("pile", 2e-3), ("two-cells", 2e-4)];
 
+/// Scenes that keep no account: a curve that grows at its tips is another curve at every length.
+const UNKEPT: &[&str] = &["road"];
+
 /// What rounding may add in one step, some operations deep, as a share of the largest that all terms ever are together: places
 /// are rounded to their own size, however little energy there is at the moment.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -101,6 +104,11 @@ fn the_account_of_energies_closes_on_every_scene_at_every_step_and_in_all() {
             ..Recording::default()
         };
         let record = scene.run(&mut |_| ControlFlow::Continue(())).unwrap();
+        let kept = record.frames[0].energies.is_some();
+        assert_eq!(kept, !UNKEPT.contains(name), "{name}");
+        if !kept {
+            continue;
+        }
         let allowed = Allowed {
             scene: &scene,
             dt: scene.plan.dt,
