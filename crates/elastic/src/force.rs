@@ -181,17 +181,21 @@ pub fn body_force(
     );
 }
 
+/// Numbers that begin where a line of the cache does, so that fewer of their loads reach over two.
+#[repr(align(64))]
+struct Lines([f64; 2 * REACH]);
+
 wide! {
     /// The force on all nodes but two at each end, the deformation made block by block.
     fn in_blocks(x: &[f64], center: DVec2, rest: &[f64], w: [f64; 3], force: &mut [f64]) {
         let mut centers = [[0.0; 2]; REACH];
         centers[..REACH.min(x.len() / 2)].fill([center.x, center.y]);
-        let mut buffer = [0.0; 2 * REACH];
+        let mut buffer = Lines([0.0; 2 * REACH]);
         for (k, block) in force.chunks_mut(2 * BLOCK).enumerate() {
             let from = 2 * k * BLOCK;
             let m = block.len() + 8;
             let (x, rest) = (&x[from..from + m], &rest[from..from + m]);
-            let (centers, e) = (&centers.as_flattened()[..m], &mut buffer[..m]);
+            let (centers, e) = (&centers.as_flattened()[..m], &mut buffer.0[..m]);
             for k in 0..m {
                 e[k] = x[k] - centers[k] - rest[k];
             }

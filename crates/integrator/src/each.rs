@@ -4,10 +4,7 @@
 //! plain loop. The sums are to be `move` closures: what they borrow would be read again at every number.
 
 use glam::DVec2;
-use lanes::{Wide, all_finite, flat, flat_mut};
-
-/// Numbers between two looks at whether all are finite: they are still in the first cache.
-const STRETCH: usize = 256;
+use lanes::{Finite, Wide, flat, flat_mut};
 
 /// `p, q = f(from)` for slices of one length; true if all of `p` is finite.
 pub(crate) fn both<const N: usize, F: Fn([f64; N]) -> (f64, f64)>(
@@ -34,16 +31,14 @@ impl<const N: usize, F: Fn([f64; N]) -> (f64, f64)> Wide for Both<'_, N, F> {
     #[inline(always)]
     fn work(self) -> bool {
         let (sum, from, [p, q]) = (self.sum, self.from, self.to);
-        let mut finite = true;
-        for (k, (p, q)) in p.chunks_mut(STRETCH).zip(q.chunks_mut(STRETCH)).enumerate() {
-            let (start, m) = (k * STRETCH, p.len());
-            let (from, q) = (from.map(|a| &a[start..][..m]), &mut q[..m]);
-            for k in 0..m {
-                (p[k], q[k]) = sum(std::array::from_fn(|j| from[j][k]));
-            }
-            finite &= all_finite(p);
+        let m = p.len();
+        let (from, q) = (from.map(|a| &a[..m]), &mut q[..m]);
+        let mut finite = Finite::default();
+        for k in 0..m {
+            (p[k], q[k]) = sum(std::array::from_fn(|j| from[j][k]));
+            finite.see(p[k]);
         }
-        finite
+        finite.all()
     }
 }
 

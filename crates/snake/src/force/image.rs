@@ -6,7 +6,7 @@ use std::sync::Arc;
 use field::{ForceField, Interpolation};
 use glam::{DMat2, DVec2};
 use integrator::{Fault, FaultKind};
-use lanes::{all_finite, flat, flat_mut, wide};
+use lanes::{Finite, flat, flat_mut, wide};
 
 use super::{Curve, Force, Pull, nowhere, push_back};
 
@@ -30,10 +30,12 @@ wide! {
     /// Adds `sampled` to `force`; true if all of it is finite.
     fn join(sampled: &[f64], force: &mut [f64]) -> bool {
         let sampled = &sampled[..force.len()];
+        let mut finite = Finite::default();
         for k in 0..force.len() {
             force[k] += sampled[k];
+            finite.see(sampled[k]);
         }
-        all_finite(sampled)
+        finite.all()
     }
 }
 
