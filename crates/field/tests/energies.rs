@@ -1,5 +1,9 @@
 //! Which forces have an energy: the work along every closed way is nothing.
 #![allow(clippy::unwrap_used, reason = "a test may stop")]
+#![allow(
+    clippy::cast_possible_truncation,
+    reason = "pictures in single precision"
+)]
 
 use field::{
     Across, EdgeForce, Falloff, FlowRule, ForceField, Grid, Line, Recipe, Smoothing, VectorFlow,
