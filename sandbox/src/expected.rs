@@ -121,6 +121,9 @@ fn compare_numbers(record: &Record, text: &str) -> Vec<String> {
         .map(|line| line.rsplitn(4, ',').collect::<Vec<_>>())
         .map(|mut row| {
             row.reverse();
+            if let Some(name) = row.first_mut() {
+                *name = name.trim_matches('"');
+            }
             row
         })
         .collect();
@@ -220,6 +223,15 @@ mod tests {
             check(&[1.0], "x [px]\none\n"),
             ["row 1 of x [px]: \"one\" is no number"]
         );
+    }
+
+    #[test]
+    fn names_with_commas_are_quoted_and_found_again() {
+        let mut record = Record::default();
+        record.note("rope, snake: period", 8.0, "s", Tolerance::Absolute(0.1));
+        let text = record.numbers_csv();
+        assert!(text.contains("\"rope, snake: period\",8,s,"), "{text}");
+        assert!(compare_numbers(&record, &text).is_empty());
     }
 
     #[test]

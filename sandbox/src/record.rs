@@ -259,13 +259,19 @@ impl Record {
         let mut out = String::from("quantity,value,unit,tolerance\n");
         for number in &self.numbers {
             let value = shortest(number.value);
-            let _ = writeln!(
-                out,
-                "{},{value},{},{}",
-                number.name, number.unit, number.tolerance
-            );
+            let name = quoted(&number.name);
+            let _ = writeln!(out, "{name},{value},{},{}", number.unit, number.tolerance);
         }
         out
+    }
+}
+
+/// A name as a cell: in quotes if it has a comma in it, as programs that read such files expect.
+pub(crate) fn quoted(name: &str) -> String {
+    if name.contains(',') {
+        format!("\"{name}\"")
+    } else {
+        name.to_owned()
     }
 }
 
