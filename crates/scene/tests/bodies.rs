@@ -415,9 +415,6 @@ fn sliding_along_a_straight_border_takes_no_energy_and_the_account_closes() {
         )
     };
     let ((coarse, lost), (fine, _)) = (strays("dt = 0.05"), strays("dt = 0.025"));
-    println!("{coarse} {fine} {lost}");
-    assert!(
-        fine < coarse && coarse < 0.03 * lost,
-        "{coarse} {fine} {lost}"
-    );
+    // to rounding at either step: some thousand steps, each off by a few parts in 1e16
+    assert!(coarse.max(fine) < 1e-11 * lost, "{coarse} {fine} {lost}");
 }
