@@ -108,7 +108,11 @@ pub fn perform_all(
     std::thread::scope(|scope| {
         for _ in 0..workers.min(experiments.len()) {
             scope.spawn(|| {
-                while let Some(&experiment) = experiments.get(next.fetch_add(1, Ordering::Relaxed))
+                // from the last on: the long ones stand there, and nobody should wait for one begun late
+                while let Some(&experiment) = experiments
+                    .iter()
+                    .rev()
+                    .nth(next.fetch_add(1, Ordering::Relaxed))
                 {
                     let result = perform(experiment);
                     watch(experiment);

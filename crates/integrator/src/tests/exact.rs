@@ -179,6 +179,8 @@ fn check_doubling(c: f64, stiffness: f64, t: f64) {
     let kick = left * half.kick + half.kick * half.keep;
     let keep = half.keep * half.keep - stiffness * half.kick * half.kick;
     let phase = 1.0 + stiffness.sqrt() * t;
+    // the time of a radian, or all there is
+    let turn = t.min(1.0 / stiffness.sqrt());
     for (what, a, b, size) in [
         (
             "kick",
@@ -187,18 +189,21 @@ fn check_doubling(c: f64, stiffness: f64, t: f64) {
             half.kick.abs().max(whole.kick.abs()),
         ),
         ("keep", keep, whole.keep, 1.0),
-        // near the end of a period the sums cancel: rounding is that of their terms
+        // near the end of a period the sums cancel: rounding is that of their terms, and of the phase
         (
             "push",
             push,
             whole.push,
-            2.0 * half.push.abs() + half.kick * half.kick,
+            2.0 * half.push.abs() + half.kick * half.kick + whole.kick.abs() * turn,
         ),
         (
             "ramp",
             ramp,
             whole.ramp,
-            2.0 * half.ramp.abs() + (half.kick * half.push).abs() + 0.5 * t * half.push.abs(),
+            2.0 * half.ramp.abs()
+                + (half.kick * half.push).abs()
+                + 0.5 * t * half.push.abs()
+                + whole.push.abs() * turn,
         ),
     ] {
         assert!(
