@@ -227,7 +227,7 @@ fn free<'a>(snake: &'a Snake, values: &'a [f64]) -> impl Iterator<Item = f64> + 
 }
 
 /// Modes from the slowest up, and whether these are all.
-fn modes(snake: &Snake) -> (Vec<ModeOfMotion>, bool) {
+pub(crate) fn modes(snake: &Snake) -> (Vec<ModeOfMotion>, bool) {
     let (mass, damping) = (snake.mass(), snake.damping());
     let least = free(snake, mass).fold(f64::INFINITY, f64::min);
     if least == f64::INFINITY {

@@ -8,7 +8,8 @@ use glam::{DMat2, DVec2};
 use integrator::{State, System};
 
 use crate::error::finite_at_least;
-use crate::{Certificate, Snake, SnakeError};
+use crate::certificate::modes;
+use crate::{Snake, SnakeError};
 
 /// A rule that chooses the damping of a snake.
 ///
@@ -152,7 +153,7 @@ impl Snake {
 
     /// ω of the elastic mode number `mode` of those that resist.
     fn frequency(&self, mode: usize) -> Result<f64, SnakeError> {
-        let modes = Certificate::of(self, None).modes;
+        let (modes, _) = modes(self);
         let resisting = modes.iter().filter(|mode| mode.frequency > 0.0);
         let found = resisting.clone().nth(mode).map(|mode| mode.frequency);
         found.filter(|w| w.is_finite()).ok_or(SnakeError::NoMode {
