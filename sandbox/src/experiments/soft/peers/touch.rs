@@ -64,16 +64,17 @@ fn nearest(model: &Model, node: usize, curve: usize, closed: bool) -> Option<Tou
         let (a, b) = (x[i], x[(i + 1) % n]);
         let along = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
         let away = p - (a + along * (b - a));
-        let distance = away.length();
-        if best.is_none_or(|(least, ..)| distance < least) {
-            best = Some((distance, i, along, away));
+        let squared = away.length_squared();
+        if best.is_none_or(|(least, ..)| squared < least) {
+            best = Some((squared, i, along, away));
         }
         let crosses = (a.y > p.y) != (b.y > p.y);
         if crosses && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) {
             inside = !inside;
         }
     }
-    let (distance, edge, along, away) = best?;
+    let (squared, edge, along, away) = best?;
+    let distance = squared.sqrt();
     let inside = inside && closed;
     let way = away.try_normalize()?;
     Some(Touch {
