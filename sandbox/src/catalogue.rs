@@ -66,6 +66,7 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &turned_picture::PICTURE,
     &balloon::BALLOON,
     &open_curves::OPEN_CURVES,
+    &apple::HAND,
 ];
 
 /// The experiment of that name.

@@ -37,6 +37,7 @@ scenes![
     "disturbing-edge",
     "apple",
     "apple-closed",
+    "apple-hand",
     "apple-report",
     "pile",
     "gas-bag",

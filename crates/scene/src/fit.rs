@@ -164,6 +164,7 @@ impl Fit {
             start: State::at_rest(x),
             terms: None,
             tips: None,
+            hand: crate::Hand::default(),
             company: None,
             snake,
             plan: Plan {

@@ -11,6 +11,7 @@ use snake::{Ledger, Outcome, Pace, Snake, Term, Tips, Turning, TurningStepper, U
 
 use crate::build::{USUAL_TOLERANCE, number};
 use crate::company::Company;
+use crate::hand::Hand;
 use crate::limits::{MOST_KEPT, MOST_SCENE_BYTES, MOST_STEPS};
 use crate::record::{Frame, Record};
 use crate::{Picture, SceneError, build, catalogue, read, toml_error};
@@ -136,6 +137,8 @@ pub struct Scene {
     pub terms: Option<Vec<Term>>,
     /// Ends that grow, and after how many steps each time.
     pub tips: Option<(Tips, u64)>,
+    /// Forces and holds that come and go.
+    pub hand: Hand,
     /// Whom it shares its world with, and how curves are kept in order.
     pub company: Option<Company>,
     /// Where it starts, and how fast.
@@ -268,8 +271,27 @@ impl Scene {
         if let Some((tips, every)) = self.tips.clone() {
             return self.run_growing(tips, every, observer);
         }
+        if self.hand.is_empty() {
+            return self.run_alone(observer);
+        }
+        // hands that still have hold at the end are of this run
+        let before = self.snake.clone();
+        self.snake.expect_changes_until(self.hand.end());
+        let record = self.run_alone(observer);
+        self.snake = before;
+        record
+    }
+
+    /// Run the one snake there is.
+    fn run_alone(
+        &mut self,
+        observer: &mut dyn FnMut(&State) -> ControlFlow<()>,
+    ) -> Result<Record, SceneError> {
         let plan = self.plan.clone();
         let mut state = self.start.clone();
+        let (mut hand, slack) = (self.hand.clone(), 1e-9 * plan.dt);
+        let mut refusal = None;
+        let mut events = hand.act(&mut self.snake, &state, slack)?;
         let mut pace = match &self.terms {
             None => pace(&plan, &mut self.snake, &state).map_err(|error| refused(&error))?,
             Some(terms) => turning(&plan, &self.snake, &state, terms)?,
@@ -293,6 +315,7 @@ impl Scene {
             .frames
             .push(Frame::of(&mut self.snake, &state, keep, ledger.as_ref()));
         let frames = &mut record.frames;
+        let begin = state.step;
         let outcome = snake::run(
             &mut self.snake,
             pace.stepper(),
@@ -306,9 +329,23 @@ impl Scene {
                 if keep.keeps(state.step) {
                     frames.push(Frame::of(snake, state, keep, ledger.as_ref()));
                 }
+                // what is done after the last step is of no run
+                if state.step - begin >= until.steps {
+                    return observer(state);
+                }
+                match hand.act(snake, state, slack) {
+                    Ok(said) => events.extend(said),
+                    Err(error) => {
+                        refusal = Some(error);
+                        return ControlFlow::Break(());
+                    }
+                }
                 observer(state)
             },
         );
+        if let Some(error) = refusal {
+            return Err(error);
+        }
         let last = record
             .frames
             .last()
@@ -318,6 +355,7 @@ impl Scene {
                 .frames
                 .push(Frame::of(&mut self.snake, &state, keep, ledger.as_ref()));
         }
+        record.events = events;
         record.outcome = outcome;
         record.pace = pace.summary().map(ToString::to_string);
         let short = until.time.is_some_and(|end| state.t < end);

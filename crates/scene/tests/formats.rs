@@ -52,6 +52,7 @@ weight = 0.0
 [[force]]
 kind = §kind§"gravity"
 acceleration = [0.0, 0.0]
+§hand§
 [snake]
 §snake§
 nodes = 20
@@ -126,6 +127,7 @@ fn known(place: &str) -> Vec<String> {
         "topology" | "frame" => "\"zzz\" #",
         "rail" => "{ zzz = 1 } } #",
         "road" => "road = { zzz = 1 } } #",
+        "hand" => "[[hand]]\nzzz = 1",
         "tips" => "[tips]\nzzz = 1",
         "tip-ends" => "[tips]\nends = \"zzz\"",
         "terms" => "{ zzz = 1 } #",
@@ -173,7 +175,8 @@ fn known_of(kind: &str) -> Vec<String> {
     list.split(", ").map(str::to_owned).collect()
 }
 
-const PLACES: [&str; 42] = [
+const PLACES: [&str; 43] = [
+    "hand",
     "tips",
     "tip-ends",
     "road",
@@ -266,7 +269,7 @@ fn every_key_and_word_of_a_scene_is_on_the_page() {
 #[test]
 fn every_scene_on_the_page_is_one() {
     let scenes = blocks(&page(), "toml");
-    assert_eq!(scenes.len(), 4);
+    assert_eq!(scenes.len(), 5);
     for text in &scenes {
         let mut scene = scene(text);
         scene.plan.until.steps = 10;

@@ -70,6 +70,12 @@ impl Snake {
         self.grasp(nodes, false)
     }
 
+    /// A hand means to change something until the time `t`, like a schedule that has not ended: before that a
+    /// snake that does not move waits, and is not called at rest. Minus infinity: no longer.
+    pub const fn expect_changes_until(&mut self, t: f64) {
+        self.expected = t;
+    }
+
     fn grasp(
         &mut self,
         nodes: impl IntoIterator<Item = usize>,

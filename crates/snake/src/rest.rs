@@ -247,10 +247,11 @@ fn size(x: &[DVec2]) -> f64 {
     0.5 * (high - low).length()
 }
 
-/// Whether a schedule has yet to change something: a snake at rest before that waits.
+/// Whether a schedule or a hand has yet to change something: a snake at rest before that waits.
 fn is_scheduled(snake: &Snake, t: f64) -> bool {
     let forces = snake.world().forces.iter().map(Acting::end);
-    forces.fold(snake.body().schedules.end(), f64::max) > t
+    let end = snake.body().schedules.end().max(snake.expected);
+    forces.fold(end, f64::max) > t
 }
 
 /// Whether most nodes are at the border of every picture the snake feels, or beyond.

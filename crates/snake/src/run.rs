@@ -174,6 +174,50 @@ impl std::fmt::Display for Outcome {
 ///
 /// The observer sees the state after each step, may change the snake's body or world, and may stop
 /// the run. A snake whose nodes are farther than 1e12 from the origin, or nowhere, has blown up.
+///
+/// The observer is the hand: it watches, pulls, lets go, changes a parameter, pauses and stops.
+///
+/// ```
+/// use std::ops::ControlFlow::{Break, Continue};
+///
+/// use glam::DVec2;
+/// use integrator::{Scheme, Start, State};
+/// use snake::{Acting, Body, Ledger, Outcome, Snake, Spring, Until, World, run};
+///
+/// let circle = elastic::circle(DVec2::ZERO, 10.0, 40);
+/// let body = Body::of(&circle, elastic::Topology::Closed, 1.0)?.with_damping(1.0);
+/// let mut snake = Snake::new(body, World::default())?;
+/// let mut state = State::at_rest(circle);
+/// let mut stepper = Scheme::Leapfrog.start(&mut snake, &state, 0.01, Start::SecondOrder)?;
+/// let mut ledger = Ledger::begin(&mut snake, &state).map_err(|fault| fault.to_string())?;
+///
+/// // pull node 0 from t = 1 to t = 3
+/// let mut hand = |snake: &mut Snake, state: &State| {
+///     let _ = ledger.book(snake, state); // watch
+///     if state.step == 100 {
+///         let pull = Spring::at_node(0, DVec2::new(14.0, 0.0), 5.0);
+///         return snake.add_force(Acting::new(pull)).map_or(Break(()), Continue);
+///     }
+///     if state.step == 300 {
+///         snake.remove_force("spring");
+///     }
+///     Continue(())
+/// };
+/// run(&mut snake, &mut *stepper, &mut state, &Until::steps(400), &mut hand);
+/// assert!(state.x[0].x > 10.0);
+/// // between two calls the run pauses; a parameter may change there as it may in an observer
+/// let thick = snake.body().clone().with_damping(8.0);
+/// snake.set_body(thick)?;
+/// stepper.resume(&mut snake, &state);
+/// // on, until it is calm
+/// let mut calm = |_: &mut Snake, state: &State| {
+///     let fastest = state.v.iter().map(|v| v.length()).fold(0.0, f64::max);
+///     if fastest < 1e-3 { Break(()) } else { Continue(()) }
+/// };
+/// let outcome = run(&mut snake, &mut *stepper, &mut state, &Until::steps(10_000), &mut calm);
+/// assert!(matches!(outcome, Outcome::Stopped { step } if step > 400));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn run(
     snake: &mut Snake,
     stepper: &mut dyn Stepper,

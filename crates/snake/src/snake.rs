@@ -47,6 +47,8 @@ pub struct Snake {
     pub(crate) changes: u64,
     pub(crate) asked: u64,
     pub(crate) asked_before: u64,
+    /// Until when someone means to change something.
+    pub(crate) expected: f64,
 }
 
 impl Snake {
@@ -80,6 +82,7 @@ impl Snake {
             changes: 0,
             asked: 0,
             asked_before: 0,
+            expected: f64::NEG_INFINITY,
             body,
             world,
             weights,

@@ -5,6 +5,7 @@ mod company;
 mod edge_field;
 mod ends;
 pub(crate) mod force;
+mod hand;
 pub(crate) mod number;
 mod plan;
 mod shape;
@@ -17,6 +18,7 @@ use glam::DVec2;
 use snake::{Snake, SnakeError, Turning};
 
 pub use edge_field::Computing;
+pub(crate) use hand::force_now;
 pub(crate) use plan::USUAL_TOLERANCE;
 pub(crate) use world::{outside, smoothing};
 
@@ -98,6 +100,7 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         &mut notes,
     )?;
     let world = body::higher(text, &body, world)?;
+    let (hand, world) = hand::hand(text, world, &body, &start)?;
     let mut snake = Snake::new(body, world).map_err(|e| refused("snake", &e))?;
     ends::slide(text, &mut snake, &start, picture.as_ref())?;
     body::damp(text, &mut snake, &start)?;
@@ -118,6 +121,7 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         snake,
         terms,
         tips,
+        hand,
         company,
         start,
         plan,

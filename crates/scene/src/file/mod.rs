@@ -6,6 +6,7 @@
 mod company;
 mod force;
 mod forms;
+mod hand;
 
 use serde::Deserialize;
 
@@ -15,6 +16,7 @@ pub(crate) use forms::{
     DampingText, EndText, FrameText, FrameWord, InternalText, OutputText, ProfileText, RulesText,
     StepText, TermText, TopologyText,
 };
+pub(crate) use hand::HandText;
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -37,6 +39,8 @@ pub(crate) struct SceneText {
     pub field: Option<FieldText>,
     #[serde(default, deserialize_with = "force::forces")]
     pub force: Vec<ForceText>,
+    #[serde(default)]
+    pub hand: Vec<HandText>,
     pub snake: SnakeText,
     #[serde(default)]
     pub also: Vec<AlsoText>,

@@ -4,6 +4,7 @@ mod closed;
 mod draw;
 mod drawn;
 mod frames;
+mod hand;
 mod overview;
 mod rules;
 mod story;
@@ -11,6 +12,7 @@ mod story;
 pub(crate) use closed::CLOSED;
 pub(crate) use drawn::DRAWN;
 pub(crate) use frames::{FIRST, SECOND, THIRD};
+pub(crate) use hand::HAND;
 pub(crate) use overview::OVERVIEW;
 pub(crate) use rules::RULES;
 

@@ -471,7 +471,7 @@ pub(crate) fn add(
 }
 
 /// Columns of a record that no force may be called.
-const TAKEN: [&str; 20] = [
+const TAKEN: [&str; 23] = [
     "kinetic",
     "tether",
     "tension",
@@ -479,7 +479,10 @@ const TAKEN: [&str; 20] = [
     "wall",
     "damping",
     "contact",
+    "frame",
+    "scheme",
     "parameters",
+    "hand",
     "total",
     "step",
     "t",

@@ -1,0 +1,19 @@
+//! `[[hand]]`: a force or a hold that comes and goes during a run.
+
+use serde::Deserialize;
+
+use super::ForceText;
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct HandText {
+    /// When it takes hold; from the start when not given.
+    #[serde(default)]
+    pub from: f64,
+    /// When it lets go; never when not given.
+    pub until: Option<f64>,
+    /// The first and last node of a stretch that stands.
+    pub hold: Option<[usize; 2]>,
+    /// A force, found anew from the curve as it is when the hand takes hold.
+    pub force: Option<ForceText>,
+}
