@@ -18,7 +18,9 @@ use field::{EdgeForce, Grid, Interpolation};
 use glam::DVec2;
 use integrator::problems;
 use integrator::{Scheme, Start, State};
-use snake::{Body, Contact, Crowd, Snake, Timing, Upkeep, World};
+use snake::{Body, Snake, World};
+
+mod rings;
 
 /// How far a count may be from the pinned one, relative.
 const ALLOWED: f64 = 0.02;
@@ -117,36 +119,9 @@ fn stiff(scheme: Scheme, n: usize, times: u32) -> Outcome<()> {
     Ok(())
 }
 
-/// Rings of 16 nodes in rows, all touching their neighbors: ten times as many should take ten times as long.
-fn crowd(rings: u32, times: u32) -> Outcome<()> {
-    let mut snakes = Vec::new();
-    for k in 0..rings {
-        let at = 2.05 * DVec2::new(f64::from(k % 10), f64::from(k / 10));
-        let nodes = elastic::circle(at, 1.0, 16);
-        let body = Body::of(&nodes, Topology::Closed, 1.0)?
-            .with_material(Material::uniform(1.0, 1.0, 0.1));
-        snakes.push((Snake::new(body, World::default())?, State::at_rest(nodes)));
-    }
-    let timing = Timing {
-        scheme: Scheme::Leapfrog,
-        dt: 1e-3,
-        tolerance: None,
-        start: Start::SecondOrder,
-        force: false,
-    };
-    let law = Contact {
-        stiffness: 50.0,
-        damping: 1.0,
-        friction: 0.3,
-        wall_friction: 0.0,
-        stick: 1.0,
-        adhesion: 0.0,
-        range: 0.0,
-        gap: 0.1,
-        stop: 0.1,
-        own: false,
-    };
-    let mut crowd = Crowd::new(snakes, timing, Some(law), Upkeep::default())?;
+/// Rings in rows of ten, all touching their neighbors: ten times as many should take ten times as long.
+fn crowd(count: u32, times: u32) -> Outcome<()> {
+    let mut crowd = rings::crowd(count, 10, 16)?;
     for _ in 0..times {
         crowd.step()?;
     }

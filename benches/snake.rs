@@ -12,7 +12,9 @@ use elastic::{Material, Topology};
 use field::{EdgeForce, ForceField, Grid};
 use glam::DVec2;
 use integrator::{Scheme, Start, State, System};
-use snake::{Body, Contact, Crowd, Sampling, Snake, Timing, Upkeep, World};
+use snake::{Body, Sampling, Snake, World};
+
+mod rings;
 
 const NODES: [usize; 5] = [32, 128, 512, 2048, 8192];
 
@@ -110,45 +112,15 @@ fn dense(c: &mut Criterion) {
     group.finish();
 }
 
-/// A step of a crowd of rings of 8 nodes in rows, each touching its neighbors: linear, so that the throughput stays.
+/// A step of a crowd of rings in rows, each touching its neighbors: linear, so that the throughput stays.
 fn crowd(c: &mut Criterion) {
     let mut group = c.benchmark_group("crowd");
     group.sample_size(10);
-    for rings in [100_u32, 1000, 10_000] {
-        let mut snakes = Vec::new();
-        for k in 0..rings {
-            let at = 2.05 * DVec2::new(f64::from(k % 100), f64::from(k / 100));
-            let nodes = elastic::circle(at, 1.0, 8);
-            let made = Body::of(&nodes, Topology::Closed, 1.0).and_then(|body| {
-                let body = body.with_material(Material::uniform(1.0, 1.0, 0.1));
-                Snake::new(body, World::default())
-            });
-            let snake = made.unwrap_or_else(|error| unreachable!("{error}"));
-            snakes.push((snake, State::at_rest(nodes)));
-        }
-        let timing = Timing {
-            scheme: Scheme::Leapfrog,
-            dt: 1e-3,
-            tolerance: None,
-            start: Start::SecondOrder,
-            force: false,
-        };
-        let law = Contact {
-            stiffness: 50.0,
-            damping: 1.0,
-            friction: 0.3,
-            wall_friction: 0.0,
-            stick: 1.0,
-            adhesion: 0.0,
-            range: 0.0,
-            gap: 0.1,
-            stop: 0.1,
-            own: false,
-        };
-        let crowd = Crowd::new(snakes, timing, Some(law), Upkeep::default());
+    for count in [100_u32, 1000, 10_000] {
+        let crowd = rings::crowd(count, 100, 8);
         let mut crowd = crowd.unwrap_or_else(|error| unreachable!("{error}"));
-        group.throughput(Throughput::Elements(u64::from(rings)));
-        group.bench_function(BenchmarkId::from_parameter(rings), |b| {
+        group.throughput(Throughput::Elements(u64::from(count)));
+        group.bench_function(BenchmarkId::from_parameter(count), |b| {
             b.iter(|| {
                 let outcome = crowd.step();
                 black_box(&outcome);
