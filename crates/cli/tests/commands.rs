@@ -102,7 +102,7 @@ fn a_record_goes_to_a_csv_file_by_its_name() {
     );
     assert_eq!(
         lines[1],
-        "step,t,node,x,y,vx,vy,kinetic,tether,tension,rigidity,gravity,wall,damping,contact,frame,scheme,parameters,hand,total"
+        "step,t,node,x,y,vx,vy,kinetic,tether,tension,rigidity,gravity,wall,damping,contact,frame,scheme,parameters,hand,upkeep,total"
     );
     assert_eq!(lines.len(), 2 + 3 * 40);
     assert!(

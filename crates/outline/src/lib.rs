@@ -57,6 +57,7 @@ mod rail;
 mod resolve;
 mod respace;
 mod segments;
+mod stretch;
 
 pub use carry::{Body, Carried, Lengths, Motion, Totals};
 pub use crossings::{Crossing, Crossings, Spot, crossings};
@@ -70,3 +71,4 @@ pub use plan::Plan;
 pub use rail::{Foot, OnRail, Rail};
 pub use resolve::{Event, Piece, Removal, Resolved, merge, resolve};
 pub use respace::{Between, Bounds, respace, slide};
+pub use stretch::nearest_of;

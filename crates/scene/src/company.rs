@@ -45,6 +45,9 @@ impl Scene {
             crowd.watch(rest);
         }
         let keep = plan.recording.sorted();
+        if !keep.energies {
+            crowd = crowd.without_account();
+        }
         let mut record = Record::of(self);
         record.terms = Energies::names_with(Crowd::FORCES.into_iter());
         record

@@ -3,14 +3,15 @@
 use std::ops::ControlFlow;
 
 use integrator::State;
-use snake::{Outcome, Tips, Until};
+use snake::{Ledger, Outcome, Tips, Until};
 
 use crate::SceneError;
 use crate::record::{Frame, Record};
 use crate::scene::{Scene, refused};
 
 impl Scene {
-    /// Run by turns: so many steps, then a node more at every tip that goes on; to the end when none does.
+    /// Run by turns: so many steps, then a node more at every tip that goes on; to the end when none does. What growth does to the energy is
+    /// booked under `upkeep`.
     pub(crate) fn run_growing(
         &mut self,
         mut tips: Tips,
@@ -20,10 +21,18 @@ impl Scene {
         let plan = self.plan.clone();
         let keep = &plan.recording.sorted();
         let (mut snake, mut state) = (self.snake.clone(), self.start.clone());
+        let begun = |fault| SceneError::key("snake.start", fault);
+        let mut ledger = if keep.energies {
+            let ledger = Ledger::begin(&mut snake, &state).map_err(begun)?;
+            let under = ledger.under(plan.scheme, plan.start_rule, &mut snake);
+            Some(under.map_err(begun)?)
+        } else {
+            None
+        };
         let mut record = Record::of(self);
         record
             .frames
-            .push(Frame::of(&mut snake, &state, keep, None));
+            .push(Frame::of(&mut snake, &state, keep, ledger.as_ref()));
         let frames = &mut record.frames;
         let begin = state.step;
         let outcome = loop {
@@ -47,8 +56,12 @@ impl Scene {
                 &mut state,
                 &until,
                 &mut |snake, state| {
+                    // a place without force ends the run at the next step, with its own outcome
+                    if let Some(ledger) = &mut ledger {
+                        let _ = ledger.book(snake, state);
+                    }
                     if keep.keeps(state.step) {
-                        frames.push(Frame::of(snake, state, keep, None));
+                        frames.push(Frame::of(snake, state, keep, ledger.as_ref()));
                     }
                     observer(state)
                 },
@@ -67,6 +80,12 @@ impl Scene {
             if let Some((larger, at)) = grown {
                 (snake, state) = (larger, at);
             }
+            // the scheme begins again, on the curve as it is now
+            if let Some(ledger) = &mut ledger {
+                ledger
+                    .renew(&mut snake, &state, plan.scheme, plan.start_rule)
+                    .map_err(begun)?;
+            }
             for (end, name) in ["head", "tail"].into_iter().enumerate() {
                 if before[end] && !tips.growing()[end] {
                     let n = state.len();
@@ -77,7 +96,7 @@ impl Scene {
             }
         };
         if frames.last().is_none_or(|frame| frame.step != state.step) {
-            frames.push(Frame::of(&mut snake, &state, keep, None));
+            frames.push(Frame::of(&mut snake, &state, keep, ledger.as_ref()));
         }
         record.outcome = outcome;
         Ok(record)

@@ -15,8 +15,8 @@
 //!
 //! where `scheme` is Δ½μv² of F^c alone, less its work by the trapezoidal rule, `½ (F^c + F^c⁺)·(x⁺ − x)`. S is a number
 //! of the state: what the energy lacks for velocities half a step late, and what a leapfrog's swings by. The trapezoidal
-//! rule is −ΔU where F^c is linear; elsewhere Simpson's rule on the same chord is nearer, and the difference,
-//! `⅓ (F^c + F^c⁺ − 2 F^c in the middle)·(x⁺ − x)`, is the scheme's as well. Nothing here asks for an energy, except where a
+//! rule is −ΔU where F^c is linear; elsewhere Simpson's rule on the same chord is nearer, from where a wall's spring sets in, and the
+//! difference, `⅓ (F^c + F^c⁺ − 2 F^c in the middle)·(x⁺ − x)`, is the scheme's as well. Nothing here asks for an energy, except where a
 //! contact puts nodes elsewhere: that takes what energy and S were before, less what they are after.
 
 use elastic::Material;
@@ -262,7 +262,8 @@ impl Algebra {
         each.sum()
     }
 
-    /// Work of F^c over the step by the trapezoidal rule, less that by Simpson's.
+    /// Work of F^c over the step by the trapezoidal rule, less that by Simpson's; of a wall's spring that sets in on the way less that
+    /// from where it does.
     fn bend(
         &self,
         snake: &mut Snake,
@@ -283,11 +284,30 @@ impl Algebra {
             let ends = self.last.pull[i] + here.pull[i];
             bend += (ends - 2.0 * force[i]).dot(x[i] - from.x[i]) / 3.0;
         }
-        Ok(bend)
+        Ok(bend + snake.set_in(&from.x, x))
     }
 }
 
 impl Snake {
+    /// Work of walls that push on a part of the way only: what Simpson's rule makes of it, less what it is.
+    fn set_in(&self, from: &[DVec2], to: &[DVec2]) -> f64 {
+        let mut sum = 0.0;
+        for wall in self.world.walls.iter().filter(|wall| wall.is_spring()) {
+            for (i, (&a, &b)) in from.iter().zip(to).enumerate() {
+                let (begin, end) = (wall.distance(a), wall.distance(b));
+                if self.held[i] || (begin < 0.0) == (end < 0.0) {
+                    continue;
+                }
+                let push = |x: DVec2| wall.force(x, DVec2::ZERO).dot(b - a);
+                let simpson = (push(a) + 4.0 * push(0.5 * (a + b)) + push(b)) / 6.0;
+                // one of both ends is inside, and the force falls straight to 0 at the wall
+                let inside = begin.min(end) / (begin.min(end) - begin.max(end));
+                sum += simpson - 0.5 * inside * (push(a) + push(b));
+            }
+        }
+        sum
+    }
+
     /// Nodes that may not move feel nothing.
     fn free(&self, force: &mut [DVec2]) {
         for (force, _) in force.iter_mut().zip(&self.held).filter(|(_, held)| **held) {

@@ -5,10 +5,12 @@
 //! they keep momentum and angular momentum whatever the scheme, and lose energy only by the contact's own
 //! damping and friction.
 
+mod account;
 mod contact;
 mod footing;
 mod glue;
 mod kick;
+mod passage;
 mod upkeep;
 
 pub use contact::Contact;
@@ -21,7 +23,8 @@ use outline::OutlineError;
 
 use crate::rest::{Verdict, Watch};
 use crate::run::FAR;
-use crate::{Energies, Ledger, Pace, Rest, Snake, SnakeError};
+use crate::{Ledger, Pace, Rest, Snake, SnakeError};
+use account::Books;
 use contact::Meetings;
 use footing::Footings;
 use kick::Half;
@@ -48,11 +51,6 @@ impl Member {
     #[must_use]
     pub fn is_closed(&self) -> bool {
         self.snake.body().topology == Topology::Closed
-    }
-
-    /// Its energies, with what its own ledger has booked.
-    pub fn energies(&mut self) -> Energies {
-        self.ledger.energies(&mut self.snake, &self.state)
     }
 
     /// Mass of the stretch of curve that node `i` stands for. M L.
@@ -144,12 +142,7 @@ pub struct Crowd {
     cut: Option<Limit>,
     /// Sub-steps of steppers that are gone.
     made: Option<Summary>,
-    /// Lost in contacts between members, and all losses of members that are gone.
-    lost: f64,
-    /// Minus the work of forces on members that are gone.
-    work: f64,
-    /// Minus what upkeep has put in.
-    taken: f64,
+    books: Books,
 }
 
 impl Crowd {
@@ -182,10 +175,9 @@ impl Crowd {
             parts: 1,
             cut: None,
             made: None,
-            lost: 0.0,
-            work: 0.0,
-            taken: 0.0,
+            books: Books::default(),
         };
+        crowd.meetings.count(true);
         upkeep.validate()?;
         let masses = snakes.iter().flat_map(|(snake, _)| snake.mass());
         let least = masses.copied().fold(f64::INFINITY, f64::min);
@@ -337,6 +329,11 @@ impl Crowd {
     ///
     /// The first snake that could not make its step, or whose curve could not be kept in order.
     pub fn step(&mut self) -> Result<(), CrowdError> {
+        if self.books.kept {
+            for member in &mut self.members {
+                member.catch_up()?;
+            }
+        }
         for part in 1..=self.parts {
             self.go(part)?;
         }
@@ -374,10 +371,12 @@ impl Crowd {
                     kind: FaultKind::NotFinite,
                 }));
             }
-            member
-                .ledger
-                .book(&mut member.snake, &member.state)
-                .map_err(fault)?;
+            if self.books.kept {
+                member
+                    .ledger
+                    .book(&mut member.snake, &member.state)
+                    .map_err(fault)?;
+            }
         }
         self.t = self.members.first().map_or(self.t, |member| member.state.t);
         self.meet(Some(self.part()))?;
@@ -427,8 +426,9 @@ impl Crowd {
     /// Find who touches whom, so long after the last time.
     fn meet(&mut self, since: Option<f64>) -> Result<(), CrowdError> {
         if let Some(contact) = &self.contact {
-            self.lost += self.meetings.find(contact, &self.members, since)?;
-            self.lost += self.footings.find(contact, &self.members, since.is_none());
+            let mut tally = self.meetings.find(contact, &self.members, since)?;
+            tally += self.footings.find(contact, &self.members, since.is_none());
+            self.books.passed(tally);
         }
         Ok(())
     }
@@ -438,49 +438,16 @@ impl Crowd {
         let Some(contact) = &self.contact else {
             return Ok(());
         };
-        self.lost += self.meetings.kick(contact, &mut self.members, time, half);
-        self.lost += self.footings.kick(contact, &mut self.members, time, half);
+        let mut tally = self.meetings.kick(contact, &mut self.members, time, half);
+        tally += self.footings.kick(contact, &mut self.members, time, half);
+        self.books.kicked(tally);
+        let kept = self.books.kept;
         for (k, member) in self.members.iter_mut().enumerate() {
             if self.meetings.kicked(k) || self.footings.kicked(k) {
-                member.resume()?;
+                member.resume(kept)?;
             }
         }
         Ok(())
-    }
-
-    /// What the forces of [`Crowd::energies`] are called: those of every member's world together, and what
-    /// the contacts between members hold.
-    pub const FORCES: [&str; 2] = ["outside", "between"];
-
-    /// All energies, those of the members added up. Losses in contacts between members stand under
-    /// `contact`, and what upkeep has put in under `parameters`.
-    pub fn energies(&mut self) -> Energies {
-        let mut sum = Energies {
-            forces: vec![self.work, 0.0],
-            contact: self.lost,
-            parameters: self.taken,
-            ..Energies::default()
-        };
-        if let Some(contact) = &self.contact {
-            sum.forces[1] = self.meetings.energy(contact, &self.members)
-                + self.footings.energy(contact, &self.members);
-        }
-        for member in &mut self.members {
-            let energies = member.energies();
-            sum.kinetic += energies.kinetic;
-            sum.tether += energies.tether;
-            sum.tension += energies.tension;
-            sum.rigidity += energies.rigidity;
-            sum.forces[0] += energies.forces.iter().sum::<f64>();
-            sum.wall += energies.wall;
-            sum.damping += energies.damping;
-            sum.contact += energies.contact;
-            sum.frame += energies.frame;
-            sum.scheme += energies.scheme;
-            sum.parameters += energies.parameters;
-            sum.hand += energies.hand;
-        }
-        sum
     }
 
     /// Momentum of all members, `Σ h Σ μ v`. M L² T⁻¹.
@@ -510,19 +477,5 @@ impl Crowd {
     pub fn deepest(&self) -> f64 {
         let gap = self.contact.as_ref().map_or(0.0, |contact| contact.gap);
         (self.meetings.deepest() - gap).max(0.0)
-    }
-}
-
-impl Member {
-    /// Tell its scheme and its ledger that someone else has moved it.
-    fn resume(&mut self) -> Result<(), CrowdError> {
-        let stepper = self.pace.stepper();
-        stepper.resume(&mut self.snake, &self.state);
-        self.ledger
-            .resume(&mut self.snake, &self.state)
-            .map_err(|fault| CrowdError::Fault {
-                member: self.id,
-                fault,
-            })
     }
 }

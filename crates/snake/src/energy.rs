@@ -39,6 +39,8 @@ pub struct Energies {
     /// Minus what changes of the snake and its world by hand have put in since the run began, and what
     /// was booked of forces that are gone.
     pub hand: f64,
+    /// Minus what has been put in where the curve became another one: other nodes, another rest shape, growth, a piece cut off.
+    pub upkeep: f64,
 }
 
 impl Energies {
@@ -59,6 +61,7 @@ impl Energies {
             "scheme",
             "parameters",
             "hand",
+            "upkeep",
         ];
         first
             .into_iter()
@@ -74,7 +77,8 @@ impl Energies {
         let mut values = vec![self.kinetic, self.tether, self.tension, self.rigidity];
         values.extend(&self.forces);
         values.extend([self.wall, self.damping, self.contact]);
-        values.extend([self.frame, self.scheme, self.parameters, self.hand]);
+        values.extend([self.frame, self.scheme, self.parameters]);
+        values.extend([self.hand, self.upkeep]);
         values
     }
 
@@ -94,7 +98,7 @@ impl Energies {
     /// and of the account.
     #[must_use]
     pub fn total(&self) -> f64 {
-        let put_in = self.frame + self.scheme + self.parameters + self.hand;
+        let put_in = self.frame + self.scheme + self.parameters + self.hand + self.upkeep;
         self.mechanical() + self.damping + self.contact + put_in
     }
 }

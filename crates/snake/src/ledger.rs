@@ -34,6 +34,7 @@ pub struct Ledger {
     scheme: f64,
     parameters: f64,
     hand: f64,
+    upkeep: f64,
     /// The scheme whose algebra is known, and what it has used at the last state.
     algebra: Option<Algebra>,
     middle: State,
@@ -71,6 +72,7 @@ impl Ledger {
             scheme: 0.0,
             parameters: 0.0,
             hand: 0.0,
+            upkeep: 0.0,
             algebra: None,
             middle: state.clone(),
             force: vec![DVec2::ZERO; n],
@@ -267,6 +269,41 @@ impl Ledger {
         Ok(())
     }
 
+    /// Book what has been done to the snake since the last step, if anything has, without waiting for the next.
+    ///
+    /// # Errors
+    ///
+    /// As [`Ledger::begin`].
+    pub(crate) fn catch_up(&mut self, snake: &mut Snake) -> Result<(), Fault> {
+        if snake.changes == self.was.changes {
+            return Ok(());
+        }
+        self.change(snake)
+    }
+
+    /// Go on with another curve: other nodes, another rest shape, perhaps another scheme's first step. What that does to the
+    /// sum is booked under `upkeep`. The forces are those of the same world.
+    ///
+    /// # Errors
+    ///
+    /// As [`Ledger::begin`].
+    pub fn renew(
+        &mut self,
+        snake: &mut Snake,
+        state: &State,
+        scheme: Scheme,
+        start: Start,
+    ) -> Result<(), Fault> {
+        let mut was = self.was.clone();
+        let before = self.before.clone();
+        let sum = self.energies(&mut was, &before).total();
+        self.algebra = Algebra::of(scheme, start);
+        self.resume(snake, state)?;
+        *self.was = snake.clone();
+        self.upkeep += sum - self.energies(snake, state).total();
+        Ok(())
+    }
+
     /// Go on from another state, as after a kick from outside or on other nodes: what is booked stays, and a change of
     /// the snake is not booked.
     ///
@@ -290,13 +327,27 @@ impl Ledger {
         Ok(())
     }
 
-    /// All that is booked as lost or put in, and minus all work.
+    /// All that is booked, and minus all work for the only force.
     #[must_use]
-    pub(crate) fn booked(&self) -> (f64, f64) {
+    pub(crate) fn booked(&self) -> Energies {
         let work: f64 = self.bookings.iter().map(|booking| booking.work).sum();
-        let lost =
-            self.damping + self.contact + self.frame + self.scheme + self.parameters + self.hand;
-        (lost, 0.0 - work)
+        let mut energies = Energies {
+            forces: vec![0.0 - work],
+            ..Energies::default()
+        };
+        self.enter(&mut energies);
+        energies
+    }
+
+    /// Write down what was lost and put in.
+    const fn enter(&self, energies: &mut Energies) {
+        energies.damping = self.damping;
+        energies.contact = self.contact;
+        energies.frame = self.frame;
+        energies.scheme = self.scheme;
+        energies.parameters = self.parameters;
+        energies.hand = self.hand;
+        energies.upkeep = self.upkeep;
     }
 
     /// The cubic through both states, halfway.
@@ -319,12 +370,7 @@ impl Ledger {
                 *energy = 0.0 - booking.work;
             }
         }
-        energies.damping = self.damping;
-        energies.contact = self.contact;
-        energies.frame = self.frame;
-        energies.scheme = self.scheme;
-        energies.parameters = self.parameters;
-        energies.hand = self.hand;
+        self.enter(&mut energies);
         energies
     }
 }

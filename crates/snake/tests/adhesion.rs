@@ -148,7 +148,9 @@ fn adhesion_keeps_energy_and_momentum() {
     assert!(crowd.momentum().distance(p) < 1e-12 * 2.0 * 1885.0);
     // they grew together by more than half a radius of border
     assert!(least < -1.5 * STICKY.adhesion, "{least}");
-    assert!(off < 0.01 * moved, "{off} of {moved}");
+    // skins come within reach, leave it and change partners, and the sum closes all the same
+    let size = first.values().iter().fold(0.0_f64, |a, e| a.max(e.abs()));
+    assert!(off < 1e-12 * size, "{off} of {size}, {moved} moved");
 }
 
 #[test]

@@ -112,40 +112,100 @@ fn contacts_alone_keep_angular_momentum_too() {
     assert!((crowd.angular_momentum() - l).abs() < 1e-11 * l.abs().max(p.length()));
 }
 
+/// Largest stray of the sum of all terms at the end of a step, the sum at the start, and the crowd after a time of 5.
+fn stray(snakes: Vec<(Snake, State)>, scheme: Scheme, dt: f64, law: Contact) -> (f64, f64, Crowd) {
+    let timing = timing(scheme, dt);
+    let mut crowd = Crowd::new(snakes, timing, Some(law), Upkeep::default()).unwrap();
+    let first = crowd.energies().total();
+    let mut gap = 0.0_f64;
+    while crowd.t() < 5.0 - 0.5 * dt {
+        crowd.step().unwrap();
+        gap = gap.max((crowd.energies().total() - first).abs());
+    }
+    (gap, first, crowd)
+}
+
 #[test]
-fn the_account_of_a_crowd_closes_by_the_square_of_the_step() {
-    let gap = |dt: f64| {
-        let law = Contact {
-            damping: 1.0,
-            friction: 0.3,
-            ..LAYER
+fn the_account_of_a_crowd_closes_to_rounding_at_any_step() {
+    let law = Contact {
+        damping: 1.0,
+        friction: 0.3,
+        ..LAYER
+    };
+    for (scheme, dt) in [
+        (Scheme::Leapfrog, 4e-3),
+        (Scheme::Leapfrog, 1e-3),
+        (Scheme::Report, 4e-3),
+    ] {
+        let (gap, first, mut crowd) = stray(two(), scheme, dt, law);
+        let lost = crowd.energies().contact;
+        assert!(lost > 0.05, "damping and friction took {lost}");
+        // nodes enter and leave the layer and pass from edge to edge; the report's form of the step loses digits: μ v x / dt² a step (D21)
+        let digits = if scheme == Scheme::Report {
+            1e-9
+        } else {
+            1e-13
         };
-        let mut crowd = Crowd::new(
+        assert!(gap < digits * first, "{}, {dt}: {gap}", scheme.name());
+    }
+}
+
+#[test]
+fn what_kicks_hold_back_is_a_leapfrogs_swing_and_no_more() {
+    // dust: all that acts is the contacts, and nothing is lost until it is in folds, whose depths jump; what jumps is booked
+    let mut snakes = two();
+    for (snake, _) in &mut snakes {
+        let dust = snake.body().clone();
+        let dust = dust.with_material(Material::uniform(0.0, 0.0, 0.0));
+        snake.set_body(dust).unwrap();
+    }
+    let timing = timing(Scheme::Leapfrog, 2e-3);
+    let mut crowd = Crowd::new(snakes, timing, Some(LAYER), Upkeep::default()).unwrap();
+    let first = crowd.energies();
+    let (mut held, mut swing, mut lost) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for _ in 0..2500 {
+        crowd.step().unwrap();
+        let now = crowd.energies();
+        assert!((now.total() - first.total()).abs() < 1e-13 * first.total());
+        if crowd.steps() < 800 {
+            swing = swing.max(now.scheme.abs());
+            held = held.max(now.forces[1]);
+            lost = lost.max(now.contact.abs());
+        }
+    }
+    assert!(held > 0.1, "they never met");
+    // no impulse was needed, and no jump of a depth: edges follow each other without one
+    assert!(lost < 1e-13 * first.total(), "{lost}");
+    // a node pushes on two, so |C|² sums up to at most four times 2 k E, and S = ⅛ dt²/μ |C|²
+    let most = 2e-3 * 2e-3 * LAYER.stiffness * held;
+    assert!(swing > 0.0 && swing < most, "{swing} of {most}");
+}
+
+#[test]
+fn without_an_account_a_crowd_moves_the_same() {
+    let law = Contact {
+        damping: 1.0,
+        friction: 0.3,
+        ..LAYER
+    };
+    let start = || {
+        Crowd::new(
             two(),
-            timing(Scheme::Leapfrog, dt),
+            timing(Scheme::Leapfrog, 2e-3),
             Some(law),
             Upkeep::default(),
         )
-        .unwrap();
-        let first = crowd.energies().total();
-        let mut gap = 0.0_f64;
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a few thousand"
-        )]
-        let steps = (5.0 / dt).round() as usize;
-        for _ in 0..steps {
-            crowd.step().unwrap();
-            gap = gap.max((crowd.energies().total() - first).abs());
-        }
-        let lost = crowd.energies().contact;
-        assert!(lost > 0.05, "damping and friction took {lost}");
-        gap / first
     };
-    let (coarse, fine) = (gap(4e-3), gap(1e-3));
-    // the layer begins with a kink, so a node's first step in it is off by more than a square
-    assert!(fine < 2e-3 && fine < 0.3 * coarse, "{coarse} {fine}");
+    let (mut with, mut without) = (start().unwrap(), start().unwrap().without_account());
+    for _ in 0..1500 {
+        with.step().unwrap();
+        without.step().unwrap();
+    }
+    for (a, b) in with.members().iter().zip(without.members()) {
+        assert_eq!(a.state, b.state);
+    }
+    assert!(with.energies().contact > 0.0);
+    assert!(without.energies().contact.abs() < f64::MIN_POSITIVE);
 }
 
 #[test]
@@ -283,10 +343,10 @@ fn re_spacing_keeps_mass_momentum_and_spin_and_books_its_energy() {
     assert!(crowd.momentum().distance(p) < 1e-9 * m);
     let after = crowd.energies();
     assert!(
-        (after.total() / total - 1.0).abs() < 1e-3,
+        (after.total() / total - 1.0).abs() < 1e-12,
         "{after:?} {total}"
     );
-    let put_in = after.parameters.abs();
+    let put_in = after.upkeep.abs();
     assert!(put_in < 0.05 * total, "{put_in}");
 }
 

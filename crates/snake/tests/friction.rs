@@ -182,8 +182,8 @@ fn a_ball_held_on_a_rough_curve_is_at_rest_and_its_account_closes() {
         most = most.max(energies.forces[0].abs().max(energies.damping));
     }
     assert!(crowd.is_at_rest());
-    // the kink of a layer's first step, as in the account of a crowd
-    assert!(off < 0.01 * most, "{off} of {most}");
+    // rounding, over some thousand steps
+    assert!(off < 1e-11 * most, "{off} of {most}");
 }
 
 #[test]

@@ -74,7 +74,7 @@ fn below_the_yield_strain_nothing_is_forgotten_and_above_it_all_that_is_beyond()
         }
         // what yielding took from the energy is booked
         assert!((crowd.energies().total() - whole).abs() < 1e-9 * whole);
-        assert_eq!(crowd.energies().parameters > 0.0, yields);
+        assert_eq!(crowd.energies().upkeep > 0.0, yields);
     }
 }
 

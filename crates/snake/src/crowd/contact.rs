@@ -5,6 +5,7 @@ use outline::{Near, Neighbours};
 
 use super::glue::Glue;
 use super::kick::{Half, Turn, brake, push};
+use super::passage::{Passage, Tally};
 use super::{CrowdError, Member};
 use crate::SnakeError;
 use crate::error::finite_at_least;
@@ -94,6 +95,8 @@ pub(super) struct Meetings {
     kicked: Vec<bool>,
     glue: Glue,
     push: Vec<Vec<DVec2>>,
+    /// Where the nodes were when last looked for, if what happens since is counted.
+    places: Option<Vec<Vec<DVec2>>>,
 }
 
 impl Contact {
@@ -125,6 +128,11 @@ impl Contact {
         finite_at_least(name, f64::MIN_POSITIVE, "above 0", self.stop).map(|_| ())
     }
 
+    /// Push of a layer that feels this depth, per length of curve.
+    pub(super) fn press(&self, felt: f64) -> f64 {
+        self.stiffness * felt
+    }
+
     /// How far friction of that coefficient stretches at a depth before it slips.
     pub(super) fn holds(&self, friction: f64, depth: f64) -> f64 {
         if self.stick > 0.0 {
@@ -150,17 +158,16 @@ impl Contact {
 
 impl Meetings {
     /// Find every node within the layer of another curve, so long after the last time; None: for the first
-    /// time. Linear in the nodes. Answers what was lost.
+    /// time. Linear in the nodes. Answers what the contacts have done since then, if that is counted.
     ///
     /// A node deep inside whose nearest edge is suddenly another one, on another side, would have its energy jump.
-    /// What depth it gains by more than its motion since then can explain does not push; the energy of what
-    /// depth it loses so is lost.
+    /// What depth it gains by more than its motion since then can explain does not push.
     pub(super) fn find(
         &mut self,
         contact: &Contact,
         members: &[Member],
         since: Option<f64>,
-    ) -> Result<f64, CrowdError> {
+    ) -> Result<Tally, CrowdError> {
         std::mem::swap(&mut self.list, &mut self.before);
         self.list.clear();
         self.kicked.clear();
@@ -182,12 +189,12 @@ impl Meetings {
             .iter()
             .map(|m| m.is_closed() && elastic::signed_area(&m.state.x) < 0.0)
             .collect();
+        let apart: Vec<usize> = members.iter().map(|m| apart(contact, m)).collect();
         let mut found = std::mem::take(&mut self.found);
         for (curve, member) in members.iter().enumerate() {
-            let apart = apart(contact, member);
             for node in 0..member.state.len() {
                 self.neighbours
-                    .near_node(curve, node, apart, reach, &mut found);
+                    .near_node(curve, node, apart[curve], reach, &mut found);
                 outline::keep_nearest(&mut found);
                 for near in &found {
                     let own = near.curve == curve;
@@ -230,22 +237,64 @@ impl Meetings {
             }
         }
         self.found = found;
-        Ok(since.map_or(0.0, |dt| self.smooth(contact, members, dt)))
+        if let Some(dt) = since {
+            self.smooth(contact, members, dt);
+        }
+        let places = self.places.take();
+        let mut tally = Tally::default();
+        if let (Some(from), Some(_)) = (&places, since) {
+            let passage = Passage {
+                contact,
+                members,
+                from,
+                turned: &turned,
+                apart: &apart,
+            };
+            tally = self.passed(&passage);
+            if contact.adheres() {
+                tally += self.glue.passed(&passage);
+            }
+        }
+        self.places = places.map(|mut places| {
+            places.resize_with(members.len(), Vec::new);
+            for (place, member) in places.iter_mut().zip(members) {
+                place.clone_from(&member.state.x);
+            }
+            places
+        });
+        Ok(tally)
     }
 
-    /// Take jumps out of what is felt; the energy that they took.
-    fn smooth(&mut self, contact: &Contact, members: &[Member], dt: f64) -> f64 {
+    /// Count what contacts do from the next search on, or no longer.
+    pub(super) fn count(&mut self, counts: bool) {
+        self.places = counts.then(Vec::new);
+    }
+
+    /// What all meetings of this moment and the one before have done in between.
+    fn passed(&self, passage: &Passage<'_>) -> Tally {
         let key = |m: &Meeting| (m.curve, m.node, m.other);
-        let mut lost = 0.0;
+        let (mut tally, mut old) = (Tally::default(), 0);
+        for m in &self.list {
+            while old < self.before.len() && key(&self.before[old]) < key(m) {
+                tally += passage.meeting(Some(&self.before[old]), None);
+                old += 1;
+            }
+            let same = self.before.get(old).filter(|b| key(b) == key(m));
+            tally += passage.meeting(same, Some(m));
+            old += usize::from(same.is_some());
+        }
+        for gone in &self.before[old..] {
+            tally += passage.meeting(Some(gone), None);
+        }
+        tally
+    }
+
+    /// Take jumps out of what is felt, and let friction slip that is stretched too far.
+    fn smooth(&mut self, contact: &Contact, members: &[Member], dt: f64) {
+        let key = |m: &Meeting| (m.curve, m.node, m.other);
         let mut old = 0;
-        let energy = |m: &Meeting, felt: f64| {
-            0.5 * contact.stiffness * members[m.curve].snake.body().spacing * felt * felt
-        };
-        let stuck = |m: &Meeting, slip: f64| contact.stick * energy(m, slip);
         for m in &mut self.list {
             while old < self.before.len() && key(&self.before[old]) < key(m) {
-                let gone = &self.before[old];
-                lost += left(gone, members, dt, &energy) + stuck(gone, gone.slip);
                 old += 1;
             }
             let reach = 2.0 * dt * relative(m, members).length();
@@ -259,26 +308,12 @@ impl Meetings {
             // what the depth has changed by, as far as motion explains it
             let change = (m.depth - depth).clamp(-reach, reach);
             m.felt = (felt + change).clamp(0.0, m.depth);
-            let jump = felt + change - m.felt;
-            if jump > 0.0 {
-                lost += energy(m, m.felt + jump) - energy(m, m.felt);
-            }
             let held = contact.holds(contact.friction, m.felt);
-            if m.slip.abs() > held {
-                // before, what held was stretched by so much
-                let before = same.map_or(0.0, |b| b.slip);
-                let slid = m.slip;
-                m.slip = held.copysign(slid);
-                lost += stuck(m, 1.0) * (before + m.slip) * (slid - m.slip);
-            }
+            m.slip = m.slip.max(-held).min(held);
         }
-        for m in &self.before[old..] {
-            lost += left(m, members, dt, &energy) + stuck(m, m.slip);
-        }
-        lost
     }
 
-    /// Push and brake for that long; what damping and friction take.
+    /// Push and brake for that long; what the pushes do and damping and friction take.
     ///
     /// The springs of all meetings act at once, damping and friction one meeting after the other, each on the velocities
     /// that those before it have left, so that none turns a slip round. At the start of a step braking comes first and at its
@@ -289,17 +324,17 @@ impl Meetings {
         members: &mut [Member],
         time: f64,
         half: Half,
-    ) -> f64 {
+    ) -> Tally {
         self.kicked.fill(false);
-        let mut lost = 0.0;
+        let mut tally = Tally::default();
         for turn in half.turns() {
             if matches!(turn, Turn::Push) && contact.adheres() {
-                self.glue.kick(members, time, &mut self.kicked);
+                tally.work += self.glue.kick(members, time, &mut self.kicked);
             }
             for m in &self.list {
                 match turn {
-                    Turn::Push => push(contact, members, m, time),
-                    Turn::Brake => lost += brake(contact, members, m, time),
+                    Turn::Push => tally.work += push(contact, members, m, time),
+                    Turn::Brake => tally.lost += brake(contact, members, m, time),
                 }
                 self.kicked[m.curve] = true;
                 self.kicked[m.other] = true;
@@ -308,11 +343,11 @@ impl Meetings {
         for _ in 0..ROUNDS {
             for m in &self.list {
                 if m.depth > contact.gap + contact.stop {
-                    lost += brake(contact, members, m, 0.0);
+                    tally.lost += brake(contact, members, m, 0.0);
                 }
             }
         }
-        lost
+        tally
     }
 
     /// Whether that member was pushed by the last kick.
@@ -330,7 +365,7 @@ impl Meetings {
         let spacing = |k: usize| members[k].snake.body().spacing;
         for m in &self.list {
             let hold = contact.stick * m.slip * m.way.perp();
-            let force = contact.stiffness * (m.felt * m.way - hold);
+            let force = contact.press(m.felt) * m.way - contact.stiffness * hold;
             self.push[m.curve][m.node] += force;
             // a force of one's length of curve, felt by the other's
             let share = spacing(m.curve) / spacing(m.other);
@@ -373,16 +408,6 @@ pub(super) fn relative(m: &Meeting, members: &[Member]) -> DVec2 {
 fn point(m: &Meeting, members: &[Member]) -> DVec2 {
     let x = &members[m.other].state.x;
     (1.0 - m.along) * x[m.ends[0]] + m.along * x[m.ends[1]]
-}
-
-/// What the end of a meeting takes: nothing if it was on its way out.
-fn left(m: &Meeting, members: &[Member], dt: f64, energy: &impl Fn(&Meeting, f64) -> f64) -> f64 {
-    let reach = 2.0 * dt * relative(m, members).length();
-    if m.felt > reach {
-        energy(m, m.felt)
-    } else {
-        0.0
-    }
 }
 
 /// How many nodes away the same curve counts as another: twice what lies within the gap.

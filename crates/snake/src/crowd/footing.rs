@@ -4,6 +4,7 @@ use glam::DVec2;
 use integrator::System;
 
 use super::kick::{Half, Turn};
+use super::passage::{Tally, held};
 use super::{Contact, Member};
 use crate::{Wall, WallLaw};
 
@@ -38,28 +39,38 @@ fn pushing(member: &Member, wall: usize) -> Option<(&Wall, DVec2, f64)> {
 
 /// What a stretched hold has: `½ s k h ξ²`.
 fn stored(contact: &Contact, members: &[Member], footing: &Footing) -> f64 {
-    share(contact, members, footing) * footing.slip * footing.slip
+    0.5 * share(contact, members, footing) * footing.slip * footing.slip
 }
 
-/// `½ s k h`.
+/// `s k h`.
 fn share(contact: &Contact, members: &[Member], footing: &Footing) -> f64 {
     let member = &members[footing.curve];
     let stiffness = pushing(member, footing.wall).map_or(0.0, |(.., k)| k);
     let spacing = member.snake.body().spacing;
-    0.5 * contact.stick * stiffness * spacing
+    contact.stick * stiffness * spacing
+}
+
+/// What a hold has done that ended since, all of it lost.
+fn ended(contact: &Contact, members: &[Member], footing: &Footing) -> Tally {
+    let member = &members[footing.curve];
+    let x = member.state.x[footing.node];
+    let slid =
+        pushing(member, footing.wall).map_or(0.0, |(_, along, _)| x.dot(along) - footing.place);
+    let stiffness = share(contact, members, footing);
+    held(stiffness, footing.slip, footing.slip + slid, 0.0)
 }
 
 impl Footings {
-    /// Find every node behind a wall; the energy of holds that slipped or ended. With `fresh` all take hold anew.
-    pub(super) fn find(&mut self, contact: &Contact, members: &[Member], fresh: bool) -> f64 {
+    /// Find every node behind a wall; what holds have done since the last time. With `fresh` all take hold anew.
+    pub(super) fn find(&mut self, contact: &Contact, members: &[Member], fresh: bool) -> Tally {
         std::mem::swap(&mut self.list, &mut self.before);
         self.list.clear();
         self.kicked.clear();
         self.kicked.resize(members.len(), false);
         if contact.wall_friction <= 0.0 {
-            return 0.0;
+            return Tally::default();
         }
-        let (mut old, mut lost) = (0, 0.0);
+        let (mut old, mut tally) = (0, Tally::default());
         let key = |f: &Footing| (f.curve, f.node, f.wall);
         for (curve, member) in members.iter().enumerate() {
             for (node, &x) in member.state.x.iter().enumerate() {
@@ -80,7 +91,7 @@ impl Footings {
                     };
                     if !fresh {
                         while old < self.before.len() && key(&self.before[old]) < key(&new) {
-                            lost += stored(contact, members, &self.before[old]);
+                            tally += ended(contact, members, &self.before[old]);
                             old += 1;
                         }
                         let mut before = 0.0;
@@ -89,13 +100,10 @@ impl Footings {
                             new.slip = b.slip + new.place - b.place;
                             old += 1;
                         }
-                        let held = contact.holds(contact.wall_friction, depth);
-                        if new.slip.abs() > held {
-                            let slid = new.slip;
-                            new.slip = held.copysign(slid);
-                            let slipped = (before + new.slip) * (slid - new.slip);
-                            lost += share(contact, members, &new) * slipped;
-                        }
+                        let most = contact.holds(contact.wall_friction, depth);
+                        let slid = new.slip;
+                        new.slip = slid.max(-most).min(most);
+                        tally += held(share(contact, members, &new), before, slid, new.slip);
                     }
                     self.list.push(new);
                 }
@@ -103,22 +111,22 @@ impl Footings {
         }
         if !fresh {
             for f in &self.before[old..] {
-                lost += stored(contact, members, f);
+                tally += ended(contact, members, f);
             }
         }
-        lost
+        tally
     }
 
-    /// Hold and brake for that long; what braking takes.
+    /// Hold and brake for that long; what holding does and braking takes.
     pub(super) fn kick(
         &mut self,
         contact: &Contact,
         members: &mut [Member],
         time: f64,
         half: Half,
-    ) -> f64 {
+    ) -> Tally {
         self.kicked.fill(false);
-        let mut lost = 0.0;
+        let mut tally = Tally::default();
         for turn in half.turns() {
             for f in &self.list {
                 let member = &mut members[f.curve];
@@ -133,8 +141,13 @@ impl Footings {
                 let hold = -contact.stick * stiffness * f.slip * time;
                 let (x, v) = (member.state.x[f.node], member.state.v[f.node]);
                 let slip = v.dot(along);
+                let length = member.snake.body().spacing;
+                let energy = |given: f64| length * given * (slip + 0.5 * given / mass);
                 let given = match turn {
-                    Turn::Push => hold,
+                    Turn::Push => {
+                        tally.work += energy(hold);
+                        hold
+                    }
                     Turn::Brake => {
                         let most = contact.wall_friction * wall.force(x, v).length() * time;
                         let rub = if contact.stick > 0.0 {
@@ -143,7 +156,7 @@ impl Footings {
                         } else {
                             -(mass * slip).clamp(-most, most)
                         };
-                        lost -= rub * (slip + 0.5 * rub / mass) * member.snake.body().spacing;
+                        tally.lost -= energy(rub);
                         rub
                     }
                 };
@@ -151,7 +164,7 @@ impl Footings {
                 self.kicked[f.curve] = true;
             }
         }
-        lost
+        tally
     }
 
     /// Whether that member was kicked the last time.

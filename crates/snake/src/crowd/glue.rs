@@ -4,18 +4,19 @@ use glam::DVec2;
 use integrator::System;
 use outline::Near;
 
+use super::passage::{Passage, Tally};
 use super::{Contact, Member};
 
 /// A node within the range of another curve.
 #[derive(Debug, Clone, Copy)]
-struct Stuck {
+pub(super) struct Stuck {
     node: usize,
-    other: usize,
-    ends: [usize; 2],
+    pub other: usize,
+    pub ends: [usize; 2],
     along: f64,
     way: DVec2,
     /// Energy per length of curve as it is, below 0, and its slope outwards.
-    energy: f64,
+    pub energy: f64,
     slope: f64,
 }
 
@@ -24,6 +25,9 @@ struct Stuck {
 pub(super) struct Glue {
     /// Of the member looked at last.
     stuck: Vec<Stuck>,
+    /// Of all of them, by curve and node; and of the moment before.
+    all: Vec<(usize, Stuck)>,
+    before: Vec<(usize, Stuck)>,
     of_node: Vec<f64>,
     forces: Vec<Vec<DVec2>>,
     energy: f64,
@@ -31,7 +35,7 @@ pub(super) struct Glue {
 
 impl Contact {
     /// Energy of one side of a border, so far from where it begins, and its slope.
-    fn side(&self, beyond: f64) -> (f64, f64) {
+    pub(super) fn side(&self, beyond: f64) -> (f64, f64) {
         let full = -0.5 * self.adhesion;
         if beyond <= 0.0 {
             return (full, 0.0);
@@ -60,6 +64,8 @@ impl Glue {
             force.resize(member.state.len(), DVec2::ZERO);
         }
         self.stuck.clear();
+        std::mem::swap(&mut self.all, &mut self.before);
+        self.all.clear();
     }
 
     /// A node of the present member near another curve; of several the one that holds it most counts.
@@ -124,6 +130,7 @@ impl Glue {
             self.forces[k][i] += pull;
             self.forces[k][j] -= pull;
         }
+        self.all.extend(self.stuck.iter().map(|&stuck| (k, stuck)));
         for stuck in self.stuck.drain(..) {
             let i = stuck.node;
             let mut length = 0.0;
@@ -141,17 +148,41 @@ impl Glue {
         }
     }
 
-    /// Pull for that long.
-    pub(super) fn kick(&self, members: &mut [Member], time: f64, kicked: &mut [bool]) {
+    /// What adhesion has done since the moment before.
+    pub(super) fn passed(&self, passage: &Passage<'_>) -> Tally {
+        let key = |(curve, stuck): &(usize, Stuck)| (*curve, stuck.node);
+        let (mut tally, mut old) = (Tally::default(), 0);
+        let gone = |b: &(usize, Stuck)| passage.adhesion(key(b), Some(&b.1), None);
+        for now in &self.all {
+            while old < self.before.len() && key(&self.before[old]) < key(now) {
+                tally += gone(&self.before[old]);
+                old += 1;
+            }
+            let same = self.before.get(old).filter(|b| key(b) == key(now));
+            tally += passage.adhesion(key(now), same.map(|b| &b.1), Some(&now.1));
+            old += usize::from(same.is_some());
+        }
+        for b in &self.before[old..] {
+            tally += gone(b);
+        }
+        tally
+    }
+
+    /// Pull for that long; the work of it.
+    pub(super) fn kick(&self, members: &mut [Member], time: f64, kicked: &mut [bool]) -> f64 {
+        let mut work = 0.0;
         for ((force, member), kicked) in self.forces.iter().zip(members).zip(kicked) {
             for (i, force) in force.iter().enumerate() {
                 if *force != DVec2::ZERO && !member.snake.held()[i] {
                     let mass = member.mass(i);
+                    let given = time * *force;
+                    work += given.dot(member.state.v[i] + 0.5 / mass * given);
                     member.state.v[i] += time / mass * *force;
                     *kicked = true;
                 }
             }
         }
+        work
     }
 
     /// Add the pull on every node of every member, per unit of arc length.

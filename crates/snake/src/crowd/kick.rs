@@ -51,13 +51,16 @@ impl Lever {
     }
 }
 
-/// The springs of one meeting, for that long.
-pub(super) fn push(contact: &Contact, members: &mut [Member], m: &Meeting, time: f64) {
-    if let Some(lever) = Lever::of(m, members) {
-        let hold = contact.stick * m.slip * m.way.perp();
-        let force = contact.stiffness * lever.length * (m.felt * m.way - hold);
-        lever.give(m, members, time * force);
-    }
+/// The springs of one meeting, for that long; their work.
+pub(super) fn push(contact: &Contact, members: &mut [Member], m: &Meeting, time: f64) -> f64 {
+    let Some(lever) = Lever::of(m, members) else {
+        return 0.0;
+    };
+    let hold = contact.stick * contact.stiffness * m.slip * m.way.perp();
+    let given = time * lever.length * (contact.press(m.felt) * m.way - hold);
+    let relative = relative(m, members);
+    lever.give(m, members, given);
+    given.dot(relative + 0.5 * lever.total * given)
 }
 
 /// Damping and friction of one meeting for that long, or the end of an approach at once; what they take.
@@ -68,7 +71,7 @@ pub(super) fn brake(contact: &Contact, members: &mut [Member], m: &Meeting, time
     let (total, length) = (lever.total, lever.length);
     let relative = relative(m, members);
     let normal = relative.dot(m.way);
-    let push = contact.stiffness * m.felt * length * time;
+    let push = contact.press(m.felt) * length * time;
     // the damper never pulls curves together, nor turns their motion round
     let damp = -contact.damping * length * time * normal;
     let most = normal.abs() / total;

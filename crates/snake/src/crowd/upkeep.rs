@@ -1,6 +1,6 @@
 //! Keeping curves fit to go on: spacing, crossings, and rest shapes that give way or grow.
 //!
-//! Everything here happens between two steps. What it does to energy is booked among the crowd's `parameters`.
+//! Everything here happens between two steps. What it does to energy is booked under `upkeep`.
 
 use elastic::{Profile, Topology};
 use glam::DVec2;
@@ -137,12 +137,17 @@ struct Renewed {
 impl Crowd {
     /// Look after every curve once.
     pub(super) fn keep_up(&mut self) -> Result<(), CrowdError> {
-        let before = self.energies().total();
-        let upkeep = self.upkeep;
+        let before = if self.books.kept {
+            self.energies().total()
+        } else {
+            0.0
+        };
+        let (upkeep, kept) = (self.upkeep, self.books.kept);
         if upkeep.plastic.is_some() || upkeep.growth.abs() > 0.0 {
             let time = self.timing.dt * upkeep.every as f64;
             for member in &mut self.members {
                 member.flow(&upkeep, time)?;
+                member.resume(kept)?;
             }
         }
         let mut changed = false;
@@ -164,7 +169,9 @@ impl Crowd {
         if changed {
             self.meet(None)?;
         }
-        self.taken += before - self.energies().total();
+        if kept {
+            self.books.upkeep += before - self.energies().total();
+        }
         Ok(())
     }
 
@@ -306,6 +313,7 @@ impl Crowd {
     /// Put a renewed curve in the place of member `k`.
     fn put(&mut self, k: usize, renewed: Renewed) -> Result<(), CrowdError> {
         self.remember(k);
+        let kept = self.books.kept;
         let member = &self.members[k];
         let mut world = member.snake.world().clone();
         for acting in &mut world.forces {
@@ -322,16 +330,14 @@ impl Crowd {
         let member = &mut self.members[k];
         (member.snake, member.state, member.pace) = (snake, renewed.state, pace);
         (member.watch, member.calm) = (None, false);
-        member.resume()
+        member.resume(kept)
     }
 
     /// Take member `k` out; what its ledger has booked stays in the crowd's.
     fn retire(&mut self, k: usize) {
         self.remember(k);
         let member = self.members.remove(k);
-        let (lost, work) = member.ledger.booked();
-        self.lost += lost;
-        self.work += work;
+        self.books.retire(&member.ledger.booked());
     }
 }
 
@@ -479,7 +485,7 @@ impl Member {
             rest.iter_mut().for_each(|r| *r *= factor);
         }
         self.snake.set_rest(rest)?;
-        self.resume()
+        Ok(())
     }
 }
 

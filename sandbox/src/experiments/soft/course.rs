@@ -8,7 +8,7 @@ use scene::Scene;
 use snake::{Crowd, Energies, Timing, Upkeep};
 
 /// The terms of the account, as columns.
-pub(crate) const TERMS: [&str; 9] = [
+pub(crate) const TERMS: [&str; 10] = [
     "kinetic",
     "elastic",
     "outside",
@@ -17,6 +17,7 @@ pub(crate) const TERMS: [&str; 9] = [
     "damping",
     "contact",
     "parameters",
+    "upkeep",
     "scheme",
 ];
 
@@ -26,7 +27,7 @@ pub(crate) struct Course {
     /// Times of the account.
     pub t: Vec<f64>,
     /// One row a time, in the order of [`TERMS`].
-    pub terms: Vec<[f64; 9]>,
+    pub terms: Vec<[f64; 10]>,
     /// The deepest that any node was in another snake.
     pub deepest: f64,
     /// The greatest speed of a node.
@@ -55,7 +56,7 @@ pub(crate) fn crowd_of(id: &'static str, scene: &Scene) -> Result<Crowd, Sandbox
     Crowd::new(snakes, timing, contact, upkeep).map_err(SandboxError::refused(id))
 }
 
-fn terms(energies: &Energies) -> [f64; 9] {
+fn terms(energies: &Energies) -> [f64; 10] {
     [
         energies.kinetic,
         energies.elastic(),
@@ -64,7 +65,8 @@ fn terms(energies: &Energies) -> [f64; 9] {
         energies.wall,
         energies.damping,
         energies.contact,
-        energies.parameters,
+        energies.parameters + energies.hand,
+        energies.upkeep,
         energies.frame + energies.scheme,
     ]
 }
@@ -125,7 +127,8 @@ impl Course {
     /// Notes what every crowd is judged by.
     pub(crate) fn note(&self, record: &mut Record, name: &str, loose: f64) {
         let like = Tolerance::Relative(loose);
-        let gap = Tolerance::Absolute((2.0 * self.gap()).max(1e-9));
+        // digits of rounding are no result
+        let gap = Tolerance::Absolute(1e-9);
         record.note(
             format!("{name}: gap of the account"),
             self.gap(),

@@ -45,7 +45,7 @@ pub(crate) const DENT: Experiment = Experiment {
             },
         },
         Claim {
-            says: "the account closes to half a hundredth, what yielding took counted in",
+            says: "the account closes to rounding, what yielding took counted in",
             source: "the ledger of a crowd",
             judge: |r| {
                 let (a, b) = (
@@ -53,8 +53,8 @@ pub(crate) const DENT: Experiment = Experiment {
                     r.number("elastic: gap of the account")?,
                 );
                 Ok(Finding::new(
-                    a.max(b) < 0.005,
-                    format!("gaps {:.3} % and {:.3} %", 100.0 * a, 100.0 * b),
+                    a.max(b) < 1e-9,
+                    format!("gaps {a:.0e} and {b:.0e}"),
                 ))
             },
         },
@@ -188,7 +188,7 @@ fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
             ("between", "between", Color::YELLOW),
             ("damping", "lost to damping", Color::ORANGE),
             ("contact", "lost on the floor", Color::RED),
-            ("parameters", "lost by yielding", Color::PURPLE),
+            ("upkeep", "lost by yielding", Color::PURPLE),
         ],
     )?;
     Ok(vec![Artefact::figure(

@@ -55,7 +55,7 @@ pub(crate) const FUNNEL: Experiment = Experiment {
             },
         },
         Claim {
-            says: "the account closes to half a hundredth",
+            says: "the account closes to rounding",
             source: "the ledger of a crowd",
             judge: |r| {
                 let (a, b) = (
@@ -63,8 +63,8 @@ pub(crate) const FUNNEL: Experiment = Experiment {
                     r.number("hard: gap of the account")?,
                 );
                 Ok(Finding::new(
-                    a.max(b) < 0.005,
-                    format!("gaps {:.3} % and {:.3} %", 100.0 * a, 100.0 * b),
+                    a.max(b) < 1e-9,
+                    format!("gaps {a:.0e} and {b:.0e}"),
                 ))
             },
         },

@@ -29,14 +29,11 @@ pub(crate) const GAS: Experiment = Experiment {
             },
         },
         Claim {
-            says: "the account closes to half a hundredth",
+            says: "the account closes to a billionth",
             source: "the ledger of a crowd",
             judge: |r| {
                 let gap = r.number("gas: gap of the account")?;
-                Ok(Finding::new(
-                    gap < 0.005,
-                    format!("gap {:.3} %", 100.0 * gap),
-                ))
+                Ok(Finding::new(gap < 1e-9, format!("gap {gap:.0e}")))
             },
         },
         Claim {

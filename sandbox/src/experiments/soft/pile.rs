@@ -32,14 +32,11 @@ pub(crate) const PILE: Experiment = Experiment {
             },
         },
         Claim {
-            says: "the account closes to a hundredth of its largest term",
+            says: "the account closes to rounding",
             source: "the ledger of a crowd",
             judge: |r| {
                 let gap = r.number("pile: gap of the account")?;
-                Ok(Finding::new(
-                    gap < 0.01,
-                    format!("gap {:.3} %", 100.0 * gap),
-                ))
+                Ok(Finding::new(gap < 1e-9, format!("gap {gap:.0e}")))
             },
         },
         Claim {

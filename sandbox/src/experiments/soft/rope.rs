@@ -39,7 +39,7 @@ pub(crate) const ROPE: Experiment = Experiment {
             },
         },
         Claim {
-            says: "the pinned end does not move, and the account closes to a thousandth",
+            says: "the pinned end does not move, and the account closes to rounding",
             source: "the ledger",
             judge: |r| {
                 let (gap, moved) = (
@@ -47,8 +47,8 @@ pub(crate) const ROPE: Experiment = Experiment {
                     r.number("pin moved")?,
                 );
                 Ok(Finding::new(
-                    gap < 1e-3 && moved <= 0.0,
-                    format!("gap {gap:.1e}, moved by {moved}"),
+                    gap < 1e-9 && moved <= 0.0,
+                    format!("gap {gap:.0e}, moved by {moved}"),
                 ))
             },
         },

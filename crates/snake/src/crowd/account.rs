@@ -1,0 +1,147 @@
+//! Where the energies of a crowd go.
+//!
+//! A kick changes the kinetic energy by its impulse times the mean of the velocities before and after. What the kicks around a step
+//! put in beyond the work of their forces over the way of the step is the scheme's: what a leapfrog's energy swings by. None of this asks
+//! for an energy, so the sum is a check of kicks against forces and of forces against energies.
+
+use super::passage::Tally;
+use super::{Crowd, CrowdError, Member};
+use crate::Energies;
+
+/// What a crowd itself has booked, above what its members have.
+#[derive(Debug)]
+pub(super) struct Books {
+    /// Whether an account is kept.
+    pub kept: bool,
+    /// Lost in contacts between members.
+    pub lost: f64,
+    /// All that the ledgers of members have booked that are gone.
+    pub gone: Energies,
+    /// Minus what kicks have put in beyond the work of contacts.
+    pub scheme: f64,
+    /// Minus what upkeep has put in.
+    pub upkeep: f64,
+}
+
+impl Default for Books {
+    fn default() -> Self {
+        Self {
+            kept: true,
+            lost: 0.0,
+            gone: Energies::default(),
+            scheme: 0.0,
+            upkeep: 0.0,
+        }
+    }
+}
+
+impl Books {
+    /// What half a kick has done.
+    pub(super) fn kicked(&mut self, tally: Tally) {
+        if self.kept {
+            self.lost += tally.lost;
+            self.scheme -= tally.work;
+        }
+    }
+
+    /// A member is gone that had booked so much.
+    pub(super) fn retire(&mut self, booked: &Energies) {
+        if self.gone.forces.is_empty() {
+            self.gone.forces.push(0.0);
+        }
+        add_up(&mut self.gone, booked);
+    }
+
+    /// What contacts have done on the way of a step.
+    pub(super) fn passed(&mut self, tally: Tally) {
+        if self.kept {
+            self.lost += tally.lost;
+            self.scheme += tally.work;
+        }
+    }
+}
+
+/// Add one member's energies to those of all, its forces together.
+fn add_up(sum: &mut Energies, energies: &Energies) {
+    sum.kinetic += energies.kinetic;
+    sum.tether += energies.tether;
+    sum.tension += energies.tension;
+    sum.rigidity += energies.rigidity;
+    sum.forces[0] += energies.forces.iter().sum::<f64>();
+    sum.wall += energies.wall;
+    sum.damping += energies.damping;
+    sum.contact += energies.contact;
+    sum.frame += energies.frame;
+    sum.scheme += energies.scheme;
+    sum.parameters += energies.parameters;
+    sum.hand += energies.hand;
+    sum.upkeep += energies.upkeep;
+}
+
+impl Crowd {
+    /// The same without an account of energies, which takes as long as the steps or longer: what is booked stays 0.
+    #[must_use]
+    pub fn without_account(mut self) -> Self {
+        self.books.kept = false;
+        self.meetings.count(false);
+        self
+    }
+
+    /// What the forces of [`Crowd::energies`] are called: those of every member's world together, and what
+    /// the contacts between members hold.
+    pub const FORCES: [&str; 2] = ["outside", "between"];
+
+    /// All energies, those of the members added up. Losses in contacts between members stand under
+    /// `contact`, minus what their kicks have put in beyond the work of their forces under `scheme`, and what
+    /// [`Upkeep`](super::Upkeep) has put in under `upkeep`.
+    pub fn energies(&mut self) -> Energies {
+        let mut sum = Energies {
+            forces: vec![0.0; 2],
+            contact: self.books.lost,
+            scheme: self.books.scheme,
+            upkeep: self.books.upkeep,
+            ..Energies::default()
+        };
+        if let Some(contact) = &self.contact {
+            sum.forces[1] = self.meetings.energy(contact, &self.members)
+                + self.footings.energy(contact, &self.members);
+        }
+        let members = self.members.iter_mut().map(Member::energies);
+        for energies in members.chain([self.books.gone.clone()]) {
+            add_up(&mut sum, &energies);
+        }
+        sum
+    }
+}
+
+impl Member {
+    /// Its energies, with what its own ledger has booked.
+    pub fn energies(&mut self) -> Energies {
+        self.ledger.energies(&mut self.snake, &self.state)
+    }
+
+    /// Tell its scheme, and its ledger if it keeps one, that someone else has moved it.
+    pub(super) fn resume(&mut self, kept: bool) -> Result<(), CrowdError> {
+        let stepper = self.pace.stepper();
+        stepper.resume(&mut self.snake, &self.state);
+        if !kept {
+            return Ok(());
+        }
+        self.ledger
+            .resume(&mut self.snake, &self.state)
+            .map_err(|fault| CrowdError::Fault {
+                member: self.id,
+                fault,
+            })
+    }
+
+    /// Book what has been changed by hand since the last step.
+    pub(super) fn catch_up(&mut self) -> Result<(), CrowdError> {
+        self.ledger
+            .catch_up(&mut self.snake)
+            .map_err(|fault| CrowdError::Fault {
+                member: self.id,
+                fault,
+            })
+    }
+}
