@@ -246,15 +246,18 @@ impl Passage<'_> {
         let length = |s: f64| self.own_length(curve, node, s).0;
         let longest = length(0.0).max(length(1.0));
         // the slope of the energy is steepest at u = 1/√3
-        let law = self.contact.adhesion * (0.8 * longest / self.contact.range + 0.5);
+        let full = 0.5 * self.contact.adhesion;
+        let law = full * (1.6 * longest / self.contact.range + 1.0);
+        // the node's own neighbours move too
+        let spread = full * self.own_length(curve, node, 1.0).2;
         let mut fine = Fineness::default();
         for track in &tracks {
             let (way, size) = track.sizes();
-            fine.steep = fine.steep.max(law * way);
+            fine.steep = fine.steep.max(law * way + spread);
             fine.noise = fine.noise.max(rounding(law * size));
             fine.most = fine
                 .most
-                .max(rounding(law * way * size / self.contact.range));
+                .max(rounding((law * way + spread) * size / self.contact.range));
         }
         let energy = |s: f64| self.adhering(&tracks, curve, node, s);
         let (start, end) = (energy(0.0).0, energy(1.0).0);
@@ -287,20 +290,21 @@ impl Passage<'_> {
             }
         }
         let (energy, slope, rate) = best;
-        let (length, growth) = self.own_length(curve, node, s);
+        let (length, growth, _) = self.own_length(curve, node, s);
         (energy * length, -(energy * growth + length * slope * rate))
     }
 
-    /// Half the length of both edges at a node, and how fast it grows on the way.
-    fn own_length(&self, curve: usize, node: usize, s: f64) -> (f64, f64) {
+    /// Half the length of both edges at a node, how fast it grows on the way, and how fast it could at most.
+    fn own_length(&self, curve: usize, node: usize, s: f64) -> (f64, f64, f64) {
         let (member, from) = (&self.members[curve], &self.from[curve]);
         let (x, n, closed) = (&member.state.x, member.state.len(), member.is_closed());
-        let mut sum = (0.0, 0.0);
+        let mut sum = (0.0, 0.0, 0.0);
         let mut add = |other: usize| {
             let (a, b) = (from[other] - from[node], x[other] - x[node]);
             let edge = if s < 1.0 { a + s * (b - a) } else { b };
             sum.0 += 0.5 * edge.length();
             sum.1 += 0.5 * edge.normalize_or_zero().dot(b - a);
+            sum.2 += 0.5 * a.distance(b);
         };
         if closed || node + 1 < n {
             add((node + 1) % n);
