@@ -123,6 +123,8 @@ fn frame(crowd: &mut Crowd, velocities: bool, energies: bool) -> Frame {
 fn said(event: &Event) -> String {
     let Event { t, member, .. } = event;
     let what = match event.kind {
+        EventKind::Cut { cuts: 1 } => "makes its steps in one part again".to_owned(),
+        EventKind::Cut { cuts } => format!("makes its steps in {cuts} parts"),
         EventKind::Respaced { from, to } => format!("has {to} nodes instead of {from}"),
         EventKind::LoopRemoved { area } => format!("lost a loop of area {area:.2}"),
         EventKind::Split { pieces } => format!("fell into {pieces} pieces"),

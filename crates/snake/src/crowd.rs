@@ -10,6 +10,7 @@ mod contact;
 mod footing;
 mod glue;
 mod kick;
+mod parts;
 mod passage;
 mod upkeep;
 
@@ -39,6 +40,8 @@ pub struct Member {
     /// Where it is.
     pub state: State,
     pace: Pace,
+    /// Sub-steps that each part of a step is made in, where its nodes have come too close for one.
+    cuts: u64,
     ledger: Ledger,
     /// Its spacing when it joined: what upkeep holds to.
     spacing: f64,
@@ -118,9 +121,6 @@ pub struct Timing {
     /// Whether a step beyond the limit of a snake is made all the same.
     pub force: bool,
 }
-
-/// Share of the contacts' limit that chosen steps have: they err by the square of it.
-const RESOLVED: f64 = 0.25;
 
 /// Snakes that share a world and know of each other.
 #[derive(Debug)]
@@ -204,76 +204,10 @@ impl Crowd {
         Ok(crowd)
     }
 
-    /// Cut the step into parts below the limit of the contacts, or refuse it where it may not be cut.
-    fn cut(&mut self, limit: f64) -> Result<(), CrowdError> {
-        let dt = self.timing.dt;
-        let most = match self.timing.tolerance {
-            Some(_) => RESOLVED * limit,
-            None => limit,
-        };
-        if dt <= most {
-            return Ok(());
-        }
-        let parts = (dt / (RESOLVED * limit)).ceil();
-        // more would take longer than anybody waits for one step
-        if self.timing.tolerance.is_none() || !(limit > 0.0 && parts < 1e9) {
-            return Err(CrowdError::AboveLimit { dt, limit });
-        }
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "between 1 and 1e9"
-        )]
-        let parts = parts as u64;
-        self.parts = parts;
-        self.cut = Some(Limit {
-            dt: most,
-            of: "the contacts between snakes, with a margin to resolve them",
-        });
-        Ok(())
-    }
-
-    /// The length of a part of a step. T.
-    const fn part(&self) -> f64 {
-        self.timing.dt / self.parts as f64
-    }
-
-    /// What moves a snake of this crowd.
-    fn pace(&self, snake: &mut Snake, state: &State, start: Start) -> Result<Pace, SchemeError> {
-        let Timing {
-            scheme, tolerance, ..
-        } = self.timing;
-        let Some(tolerance) = tolerance else {
-            return Pace::fixed(scheme, snake, state, self.timing.dt, start);
-        };
-        let pace = Pace::chosen(scheme, snake, state, self.part(), tolerance)?;
-        Ok(match self.cut {
-            Some(limit) => pace.cut_by(limit),
-            None => pace,
-        })
-    }
-
-    /// Keep what is known of the sub-steps of a stepper that goes.
-    fn remember(&mut self, k: usize) {
-        if let Some(gone) = self.members[k].pace.summary().filter(|s| s.made > 0) {
-            let made = self.made.map_or(*gone, |made| made.with(gone));
-            self.made = Some(made);
-        }
-    }
-
-    /// What became of the sub-steps of all members, where they are chosen.
-    #[must_use]
-    pub fn summary(&self) -> Option<Summary> {
-        let members = self.members.iter().filter_map(|m| m.pace.summary());
-        let mut all = self.made.iter().chain(members);
-        let first = *all.next()?;
-        Some(all.fold(first, |sum, more| sum.with(more)))
-    }
-
     /// One more snake, from now on.
     fn join(&mut self, mut snake: Snake, state: State) -> Result<(), CrowdError> {
         let member = self.next_id;
-        let pace = self
+        let (pace, cuts) = self
             .pace(&mut snake, &state, self.timing.start)
             .map_err(|error| CrowdError::Scheme { member, error })?;
         let ledger = Ledger::begin(&mut snake, &state)
@@ -285,12 +219,16 @@ impl Crowd {
             snake,
             state,
             pace,
+            cuts,
             ledger,
             spacing,
             watch: None,
             calm: false,
         });
         self.next_id += 1;
+        if cuts > 1 {
+            self.log(member, EventKind::Cut { cuts });
+        }
         Ok(())
     }
 
@@ -356,26 +294,28 @@ impl Crowd {
         for member in &mut self.members {
             let id = member.id;
             let fault = |fault| CrowdError::Fault { member: id, fault };
-            let stepper = member.pace.stepper();
-            stepper
-                .step(&mut member.snake, &mut member.state)
-                .map_err(fault)?;
-            if counted {
-                member.state.t = t;
-            }
-            let somewhere = |x: &DVec2| x.is_finite() && x.abs().max_element() < FAR;
-            if let Some(node) = member.state.x.iter().position(|x| !somewhere(x)) {
-                return Err(fault(Fault {
-                    node,
-                    at: member.state.x[node],
-                    kind: FaultKind::NotFinite,
-                }));
-            }
-            if self.books.kept {
-                member
-                    .ledger
-                    .book(&mut member.snake, &member.state)
+            for cut in 1..=member.cuts {
+                let stepper = member.pace.stepper();
+                stepper
+                    .step(&mut member.snake, &mut member.state)
                     .map_err(fault)?;
+                if counted && cut == member.cuts {
+                    member.state.t = t;
+                }
+                let somewhere = |x: &DVec2| x.is_finite() && x.abs().max_element() < FAR;
+                if let Some(node) = member.state.x.iter().position(|x| !somewhere(x)) {
+                    return Err(fault(Fault {
+                        node,
+                        at: member.state.x[node],
+                        kind: FaultKind::NotFinite,
+                    }));
+                }
+                if self.books.kept {
+                    member
+                        .ledger
+                        .book(&mut member.snake, &member.state)
+                        .map_err(fault)?;
+                }
             }
         }
         self.t = self.members.first().map_or(self.t, |member| member.state.t);

@@ -7,8 +7,8 @@ use elastic::Profile;
 use glam::{DMat2, DVec2};
 use integrator::{State, System};
 
-use crate::error::finite_at_least;
 use crate::certificate::modes;
+use crate::error::finite_at_least;
 use crate::{Snake, SnakeError};
 
 /// A rule that chooses the damping of a snake.

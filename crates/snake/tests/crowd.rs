@@ -9,7 +9,8 @@ use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use proptest as _;
 use snake::{
-    Body, Contact, Crowd, EventKind, Plastic, Rest, Snake, Timing, Upkeep, Wall, WallLaw, World,
+    Body, Contact, Crowd, EventKind, Plastic, Pressure, Rest, Snake, Timing, Upkeep, Wall, WallLaw,
+    World,
 };
 use {banded as _, field as _, outline as _, thiserror as _};
 
@@ -348,6 +349,48 @@ fn re_spacing_keeps_mass_momentum_and_spin_and_books_its_energy() {
     );
     let put_in = after.upkeep.abs();
     assert!(put_in < 0.05 * total, "{put_in}");
+}
+
+#[test]
+fn a_curve_whose_nodes_have_come_closer_makes_its_steps_in_parts() {
+    // swells to more than twice its width: it keeps its spacing, but the material between two nodes gets less and stiffer
+    let end = |dt: f64| {
+        let (body, state) = ball(DVec2::ZERO, 3.0, 30, DVec2::ZERO);
+        let swell = Pressure::constant(7.0);
+        let snake = Snake::new(body.with_damping(3.0), World::default().with(swell)).unwrap();
+        let upkeep = Upkeep {
+            every: 5,
+            stretch: Some(1.5),
+            ..Upkeep::default()
+        };
+        let time = timing(Scheme::Leapfrog, dt);
+        let mut crowd = Crowd::new(vec![(snake, state)], time, None, upkeep).unwrap();
+        while crowd.t() < 60.0 {
+            crowd.step().unwrap();
+        }
+        let cut = crowd
+            .events()
+            .iter()
+            .rev()
+            .find_map(|event| match event.kind {
+                EventKind::Cut { cuts } => Some(cuts),
+                _ => None,
+            });
+        let energies = crowd.energies();
+        let x = &crowd.members()[0].state.x;
+        let radius = x.iter().map(|p| p.length()).sum::<f64>() / x.len() as f64;
+        (radius, x.len(), cut, energies)
+    };
+    let (plain, _) = free(ball(DVec2::ZERO, 3.0, 30, DVec2::ZERO));
+    let limit = Scheme::Leapfrog.step_limit(&plain).unwrap();
+    let (radius, nodes, cut, energies) = end(0.9 * limit);
+    assert!(nodes > 60, "{nodes}");
+    assert!(cut.is_some_and(|cuts| cuts > 2), "{cut:?}");
+    assert!(energies.kinetic < 1e-6, "{energies:?}");
+    // at rest, where the step has no say
+    let (fine, _, uncut, _) = end(0.9 * limit / 32.0);
+    assert_eq!(uncut, None);
+    assert!((radius - fine).abs() < 1e-3 * fine, "{radius} {fine}");
 }
 
 #[test]

@@ -71,6 +71,11 @@ pub enum EventKind {
         /// Nodes after.
         to: usize,
     },
+    /// Its nodes came closer together or farther apart, and from now on its steps are made in so many sub-steps each.
+    Cut {
+        /// Sub-steps of a step.
+        cuts: u64,
+    },
     /// A loop of it was cut off and dropped.
     LoopRemoved {
         /// Its signed area. L².
@@ -175,7 +180,7 @@ impl Crowd {
         Ok(())
     }
 
-    fn log(&mut self, member: usize, kind: EventKind) {
+    pub(super) fn log(&mut self, member: usize, kind: EventKind) {
         let (t, step) = (self.t, self.step);
         self.events.push(Event {
             t,
@@ -326,9 +331,14 @@ impl Crowd {
         snake.follow(&member.snake, &renewed.plan)?;
         let id = member.id;
         let pace = self.pace(&mut snake, &renewed.state, Start::SecondOrder);
-        let pace = pace.map_err(|error| CrowdError::Scheme { member: id, error })?;
+        let (pace, cuts) = pace.map_err(|error| CrowdError::Scheme { member: id, error })?;
+        let before = self.members[k].cuts;
+        if cuts != before {
+            self.log(id, EventKind::Cut { cuts });
+        }
         let member = &mut self.members[k];
-        (member.snake, member.state, member.pace) = (snake, renewed.state, pace);
+        (member.snake, member.state) = (snake, renewed.state);
+        (member.pace, member.cuts) = (pace, cuts);
         (member.watch, member.calm) = (None, false);
         member.resume(kept)
     }
