@@ -15,12 +15,12 @@ use glam::DVec2;
 use rustfft::num_complex::Complex64;
 use rustfft::{Fft, FftPlanner};
 
-use crate::{BandedError, Pentadiagonal};
+use crate::{Band, BandedError};
 
-/// A cyclic [`Pentadiagonal`] with equal rows, in its eigenbasis.
+/// A cyclic [`Band`] with equal rows `d, a₁ … aₚ`, in its eigenbasis.
 ///
 /// ```text
-/// λ[k] = d + 2 f cos θ + 2 s cos 2θ,   θ = 2π k / n
+/// λ[k] = d + 2 Σ aₘ cos mθ,   θ = 2π k / n
 /// ```
 ///
 /// Transforms are O(n log n) for every n, and allocate nothing.
@@ -47,20 +47,23 @@ impl Circulant {
     /// # Errors
     ///
     /// Refuses a matrix that is open, one whose rows differ by more than rounding (see
-    /// [`Pentadiagonal::circulant`]), and numbers that are not finite.
-    pub fn new(a: &Pentadiagonal) -> Result<Self, BandedError> {
+    /// [`Band::circulant`]), and numbers that are not finite.
+    pub fn new(a: &Band) -> Result<Self, BandedError> {
         let n = a.len();
         if !a.norm().is_finite() {
             return Err(BandedError::NotFinite { row: 0 });
         }
-        let [d, f, s] = a.circulant().ok_or(BandedError::NotCirculant)?;
-        // with σ = sin² θ/2; small eigenvalues keep their digits where cosines would cancel
-        let (sum, tension) = (d + 2.0 * (f + s), -(f + 4.0 * s));
+        let powers = in_sines(&a.circulant().ok_or(BandedError::NotCirculant)?);
         let mut eigenvalues = Vec::with_capacity(n);
         for k in 0..=n / 2 {
             let wave = count(k) / count(n);
             let sigma = (std::f64::consts::PI * wave).sin().powi(2);
-            eigenvalues.push(sum + 4.0 * sigma * (tension + 4.0 * sigma * s));
+            eigenvalues.push(
+                powers
+                    .iter()
+                    .rev()
+                    .fold(0.0, |sum, c| c + 4.0 * sigma * sum),
+            );
         }
         // exactly the same for a wave and the one that runs the other way
         for k in n / 2 + 1..n {
@@ -172,6 +175,30 @@ impl Circulant {
             None => Ok(self.eigenvalues.iter().map(|e| 1.0 / e).collect()),
         }
     }
+}
+
+/// The coefficients of λ in powers of 4 sin² θ/2: small eigenvalues keep their digits where cosines would cancel.
+///
+/// `2 cos mθ = (2 − s) 2 cos (m−1)θ − 2 cos (m−2)θ` with `s = 4 sin² θ/2`.
+fn in_sines(row: &[f64]) -> Vec<f64> {
+    let mut powers = vec![0.0; row.len()];
+    powers[0] = row[0] + 2.0 * row[1..].iter().sum::<f64>();
+    let (mut before, mut cosine) = (vec![2.0], vec![2.0, -1.0]);
+    for (m, a) in row.iter().enumerate().skip(1) {
+        for (power, c) in powers.iter_mut().zip(&cosine).skip(1) {
+            *power += a * c;
+        }
+        let mut next = vec![0.0; m + 2];
+        for (k, c) in cosine.iter().enumerate() {
+            next[k] += 2.0 * c;
+            next[k + 1] -= c;
+        }
+        for (k, c) in before.iter().enumerate() {
+            next[k] -= c;
+        }
+        (before, cosine) = (cosine, next);
+    }
+    powers
 }
 
 type Plan = Arc<dyn Fft<f64>>;

@@ -14,6 +14,14 @@ pub enum BandedError {
         /// The number asked for.
         got: usize,
     },
+    /// A half width there is no band of.
+    #[error("a band has from 1 to {most} diagonals on either side, got {got}")]
+    HalfWidth {
+        /// The largest half width.
+        most: usize,
+        /// The half width asked for.
+        got: usize,
+    },
     /// Two things that go together differ in length.
     #[error("{name} must have length {expected}, got {got}")]
     Length {

@@ -16,13 +16,15 @@
 //! ```
 //!
 //! [`Pentadiagonal`] holds such a matrix as three vectors, [`Factor`] is its LDLᵀ, computed once
-//! and solved many times, x and y in one sweep. [`Operator`] adds a few dense columns to the band
-//! (a body frame, a weight that all nodes share). [`Dense`] is the slow obvious twin every test
+//! and solved many times, x and y in one sweep. [`Banded`] has any number of diagonals, for curves whose energy has
+//! derivatives above the second, and [`Band`] is whichever of the two is wanted. [`Operator`] adds a few dense columns to
+//! the band (a body frame, a weight that all nodes share). [`Dense`] is the slow obvious twin every test
 //! compares with.
 //!
 //! Product, factor and solve are O(n); product and solve allocate nothing. Nothing here knows that
 //! there is a curve.
 
+mod band;
 mod chain;
 mod circulant;
 mod complex;
@@ -39,7 +41,9 @@ mod spectrum;
 mod twisted;
 mod weakest;
 mod wide;
+mod wide_factor;
 
+pub use band::{Band, BandFactor, ComplexBandFactor};
 pub use circulant::Circulant;
 pub use complex::{Complex, ComplexFactor, ComplexPoint};
 pub use dense::Dense;
@@ -50,7 +54,8 @@ pub use lanes::{LaneFactor, LanePoint, Lanes};
 pub use matrix::Pentadiagonal;
 pub use operator::{ComplexOperatorFactor, Operator, OperatorFactor};
 pub use spectrum::{largest_eigenvalue, smallest_eigenvalue};
-pub use wide::{Banded, BandedFactor};
+pub use wide::Banded;
+pub use wide_factor::{BandedFactor, ComplexBandedFactor};
 
 #[cfg(test)]
 mod tests;

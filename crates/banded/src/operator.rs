@@ -6,21 +6,36 @@
 use glam::DVec2;
 
 use crate::lowrank::{Correction, LowRank, MOST};
-use crate::{BandedError, Complex, ComplexFactor, ComplexPoint, Dense, Factor, Pentadiagonal};
+use crate::{
+    Band, BandFactor, Banded, BandedError, Complex, ComplexBandFactor, ComplexPoint, Dense,
+    Pentadiagonal,
+};
 
 /// `A = B + U S Uᵀ`: a band `B`, and up to four dense columns `U` weighted by a small symmetric `S`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Operator {
-    band: Pentadiagonal,
+    band: Band,
     low_rank: Option<LowRank>,
 }
 
-impl From<Pentadiagonal> for Operator {
-    fn from(band: Pentadiagonal) -> Self {
+impl From<Band> for Operator {
+    fn from(band: Band) -> Self {
         Self {
             band,
             low_rank: None,
         }
+    }
+}
+
+impl From<Pentadiagonal> for Operator {
+    fn from(band: Pentadiagonal) -> Self {
+        Band::from(band).into()
+    }
+}
+
+impl From<Banded> for Operator {
+    fn from(band: Banded) -> Self {
+        Band::from(band).into()
     }
 }
 
@@ -32,10 +47,11 @@ impl Operator {
     /// Refuses more than four columns, columns of another length than the band, a `middle` that is
     /// not square or not symmetric, and numbers that are not finite.
     pub fn new(
-        band: Pentadiagonal,
+        band: impl Into<Band>,
         columns: Vec<Vec<f64>>,
         middle: Vec<f64>,
     ) -> Result<Self, BandedError> {
+        let band = band.into();
         let k = columns.len();
         if k > MOST {
             return Err(BandedError::TooManyColumns { most: MOST, got: k });
@@ -79,7 +95,7 @@ impl Operator {
 
     /// The band `B`.
     #[must_use]
-    pub fn band(&self) -> &Pentadiagonal {
+    pub fn band(&self) -> &Band {
         &self.band
     }
 
@@ -132,9 +148,9 @@ impl Operator {
     ///
     /// # Errors
     ///
-    /// Refuses what [`Factor::new`] refuses, and a correction that makes the whole singular.
+    /// Refuses what [`Band::factor`] refuses, and a correction that makes the whole singular.
     pub fn factor(&self) -> Result<OperatorFactor, BandedError> {
-        let band = Factor::new(&self.band)?;
+        let band = self.band.factor()?;
         let solve = |column: &mut [f64]| band.solve_scalars(column);
         let correction = self
             .low_rank
@@ -150,9 +166,9 @@ impl Operator {
     ///
     /// # Errors
     ///
-    /// Refuses what [`ComplexFactor::new`] refuses, and a correction that makes the whole singular.
+    /// Refuses what [`Band::factor_shifted`] refuses, and a correction that makes the whole singular.
     pub fn factor_shifted(&self, shift: &[Complex]) -> Result<ComplexOperatorFactor, BandedError> {
-        let band = ComplexFactor::new(&self.band, shift)?;
+        let band = self.band.factor_shifted(shift)?;
         let solve = |column: &mut [Complex]| band.solve_scalars(column);
         let correction = self
             .low_rank
@@ -175,7 +191,7 @@ impl Operator {
 /// The factor of an [`Operator`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct OperatorFactor {
-    band: Factor,
+    band: BandFactor,
     correction: Option<Correction<f64>>,
 }
 
@@ -209,7 +225,7 @@ impl OperatorFactor {
 /// The factor of an [`Operator`] with a complex diagonal added.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComplexOperatorFactor {
-    band: ComplexFactor,
+    band: ComplexBandFactor,
     correction: Option<Correction<Complex>>,
 }
 

@@ -5,7 +5,7 @@
 //! about fifty of them, however close its neighbours are: there is nothing to converge to the
 //! wrong place. Eigenvalues inside the spectrum are [`Dense`](crate::Dense)'s business.
 
-use crate::Pentadiagonal;
+use crate::{Band, Pentadiagonal};
 
 /// Whether the matrix with diagonal `diagonal(A[i][i], i)` and off-diagonals `sign · A` is positive.
 ///
@@ -65,35 +65,35 @@ pub(crate) fn is_positive(
 
 /// The largest λ with `A u = λ diag(w) u`, to a relative 1e-12.
 ///
-/// By bisection on "λ diag(w) − A is positive definite", O(n) a test, about fifty tests. `w` has one
+/// By bisection on "λ diag(w) − A is positive definite", O(n p²) a test, about fifty tests. `w` has one
 /// number a row, all above zero; otherwise the answer is NaN.
 #[must_use]
-pub fn largest_eigenvalue(a: &Pentadiagonal, w: &[f64]) -> f64 {
+pub fn largest_eigenvalue(a: &Band, w: &[f64]) -> f64 {
     let Some((radius, low)) = bracket(a, w, 1.0) else {
         return f64::NAN;
     };
     bisect(low, radius, radius, |lambda| {
-        is_positive(a, |d, i| lambda * w[i] - d, -1.0)
+        a.is_positive(|d, i| lambda * w[i] - d, -1.0)
     })
 }
 
 /// The smallest λ with `A u = λ diag(w) u`, to 1e-12 of itself or 1e-15 of the largest.
 ///
-/// By bisection on "A − λ diag(w) is positive definite", O(n) a test, about fifty tests. `w` has one
+/// By bisection on "A − λ diag(w) is positive definite", O(n p²) a test, about fifty tests. `w` has one
 /// number a row, all above zero; otherwise the answer is NaN.
 #[must_use]
-pub fn smallest_eigenvalue(a: &Pentadiagonal, w: &[f64]) -> f64 {
+pub fn smallest_eigenvalue(a: &Band, w: &[f64]) -> f64 {
     let Some((radius, low)) = bracket(a, w, -1.0) else {
         return f64::NAN;
     };
     -bisect(low, radius, radius, |lambda| {
-        is_positive(a, |d, i| d + lambda * w[i], 1.0)
+        a.is_positive(|d, i| d + lambda * w[i], 1.0)
     })
 }
 
 /// The radius of the spectrum by Gershgorin's discs of `W^-½ A W^-½`, and the largest diagonal
 /// element of `sign · W⁻¹ A`, which the largest eigenvalue of `sign · A` cannot be below.
-fn bracket(a: &Pentadiagonal, w: &[f64], sign: f64) -> Option<(f64, f64)> {
+fn bracket(a: &Band, w: &[f64], sign: f64) -> Option<(f64, f64)> {
     let n = a.len();
     debug_assert_eq!(w.len(), n, "one weight a row");
     if w.len() != n || !w.iter().all(|&w| w > 0.0 && w.is_finite()) {
@@ -103,12 +103,12 @@ fn bracket(a: &Pentadiagonal, w: &[f64], sign: f64) -> Option<(f64, f64)> {
     let (mut radius, mut low) = (0.0_f64, f64::NEG_INFINITY);
     for i in 0..n {
         let off = |value: f64, j: usize| value.abs() / (root[i] * root[j]);
-        let (back, back2) = ((i + n - 1) % n, (i + n - 2) % n);
-        let row = a.diagonal()[i].abs() / w[i]
-            + off(a.first()[i], (i + 1) % n)
-            + off(a.first()[back], back)
-            + off(a.second()[i], (i + 2) % n)
-            + off(a.second()[back2], back2);
+        let mut row = a.diagonal()[i].abs() / w[i];
+        for k in 1..=a.half_width() {
+            let back = (i + n - k) % n;
+            row += off(a.beside(i, k), (i + k) % n);
+            row += off(a.beside(back, k), back);
+        }
         if !row.is_finite() {
             return None;
         }

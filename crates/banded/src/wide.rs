@@ -1,56 +1,102 @@
 //! Bands of any width.
 //!
-//! The half width `P` is the number of diagonals on either side of the main one: 1 for a string, 4
-//! for two coordinates of a curve that feel each other (x and y alternating). For `P = 2` take
+//! The half width p is the number of diagonals on either side of the main one: 1 for a string, 3 for a curve that
+//! resists a change of bending, 4 for two coordinates of a curve that feel each other (x and y alternating). For p = 2 take
 //! [`Pentadiagonal`](crate::Pentadiagonal), whose solve is faster.
+//!
+//! The width is a number in the value, not a part of the type. Loops over it are compiled once for each width and
+//! chosen before the loop over the rows.
+
+use std::ops::{Add, Mul};
 
 use glam::DVec2;
 
-use crate::scalar::Node;
-use crate::weakest::{SINGULAR, Weakest, weakest};
+use crate::wide_factor::Ldl;
 use crate::{BandedError, Dense};
 
-/// Couplings below this part of the largest diagonal element are zero: 1e-5 of its last place.
-const FADED: f64 = 1e-21;
+/// Calls with the half width as a constant `P`, so that loops over it are unrolled.
+macro_rules! unrolled {
+    ($width:expr, $P:ident => $call:expr) => {
+        $crate::wide::unrolled!(@ $width, $P, $call, 1 2 3 4 5 6 7 8 9 10 11)
+    };
+    (@ $width:expr, $P:ident, $call:expr, $($p:literal)*) => {
+        match $width {
+            $($p => {
+                const $P: usize = $p;
+                $call
+            })*
+            _ => {
+                const $P: usize = $crate::Banded::WIDEST;
+                $call
+            }
+        }
+    };
+}
+pub(crate) use unrolled;
 
-/// A symmetric band matrix with `P` diagonals on either side, open or cyclic.
+/// A symmetric band matrix with p diagonals on either side, open or cyclic.
 ///
 /// ```text
-/// A[i][i] = diagonal[i]     A[i][i+k] = A[i+k][i] = beside[i][k−1],  k = 1 … P
+/// A[i][i] = diagonal[i]     A[i][i+k] = A[i+k][i] = beside[i][k−1],  k = 1 … p
 /// ```
 ///
 /// Indices wrap round when cyclic; what runs off the end is zero when open.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Banded<const P: usize> {
+pub struct Banded {
     cyclic: bool,
+    half_width: usize,
     diagonal: Vec<f64>,
-    beside: Vec<[f64; P]>,
+    /// Row after row, p numbers each.
+    beside: Vec<f64>,
 }
 
-impl<const P: usize> Banded<P> {
-    /// The zero matrix with `n` rows.
+impl Banded {
+    /// The largest half width: x and y in turn of a curve of order 6.
+    pub const WIDEST: usize = 12;
+
+    /// The zero matrix with `n` rows and `half_width` diagonals on either side.
     ///
     /// # Errors
     ///
-    /// Refuses fewer than `P + 1` rows, and fewer than `2 P + 1` when cyclic.
-    pub fn new(n: usize, cyclic: bool) -> Result<Self, BandedError> {
-        const { assert!(P > 0, "a band reaches over at least one neighbour") };
-        let needed = if cyclic { 2 * P + 1 } else { P + 1 };
+    /// Refuses a half width of 0 or above [`WIDEST`](Self::WIDEST), fewer than `half_width + 1` rows, and fewer than
+    /// `2 half_width + 1` when cyclic.
+    pub fn new(n: usize, half_width: usize, cyclic: bool) -> Result<Self, BandedError> {
+        if half_width == 0 || half_width > Self::WIDEST {
+            return Err(BandedError::HalfWidth {
+                most: Self::WIDEST,
+                got: half_width,
+            });
+        }
+        let needed = if cyclic {
+            2 * half_width + 1
+        } else {
+            half_width + 1
+        };
         if n < needed {
             return Err(BandedError::TooSmall { needed, got: n });
         }
         Ok(Self {
             cyclic,
+            half_width,
             diagonal: vec![0.0; n],
-            beside: vec![[0.0; P]; n],
+            beside: vec![0.0; n * half_width],
         })
     }
 
     /// The number of rows.
     #[must_use]
-    #[allow(clippy::len_without_is_empty, reason = "a matrix has at least one row")]
+    #[allow(
+        clippy::len_without_is_empty,
+        reason = "a matrix has at least two rows"
+    )]
     pub fn len(&self) -> usize {
         self.diagonal.len()
+    }
+
+    /// The number of diagonals on either side.
+    #[must_use]
+    pub fn half_width(&self) -> usize {
+        self.half_width
     }
 
     /// Whether the band wraps round.
@@ -59,23 +105,42 @@ impl<const P: usize> Banded<P> {
         self.cyclic
     }
 
+    /// `A[i][i]`.
+    #[must_use]
+    pub fn diagonal(&self) -> &[f64] {
+        &self.diagonal
+    }
+
+    /// `A[i][i+1] … A[i][i+p]`, wrapped when cyclic; what runs off the end is 0 when open.
+    #[must_use]
+    pub fn beside(&self, i: usize) -> &[f64] {
+        &self.beside[i * self.half_width..][..self.half_width]
+    }
+
+    /// The rows of `beside`, for a width known when this is compiled.
+    pub(crate) fn rows<const P: usize>(&self) -> &[[f64; P]] {
+        debug_assert_eq!(P, self.half_width, "the constant is the width");
+        self.beside.as_chunks().0
+    }
+
     /// `A[i][j]`, 0 outside the band.
     #[must_use]
     pub fn entry(&self, i: usize, j: usize) -> f64 {
         if i == j {
             return self.diagonal[i];
         }
-        self.slot(i, j).map_or(0.0, |(row, k)| self.beside[row][k])
+        self.slot(i, j).map_or(0.0, |at| self.beside[at])
     }
 
-    /// The row and the place in it that keep `A[i][j]`, for different `i` and `j`.
-    fn slot(&self, i: usize, j: usize) -> Option<(usize, usize)> {
+    /// Where `A[i][j]` is kept, for different `i` and `j`.
+    fn slot(&self, i: usize, j: usize) -> Option<usize> {
+        let p = self.half_width;
         let (low, high) = (i.min(j), i.max(j));
         let gap = high - low;
-        if gap <= P {
-            Some((low, gap - 1))
-        } else if self.cyclic && self.len() - gap <= P {
-            Some((high, self.len() - gap - 1))
+        if gap <= p {
+            Some(low * p + gap - 1)
+        } else if self.cyclic && self.len() - gap <= p {
+            Some(high * p + self.len() - gap - 1)
         } else {
             None
         }
@@ -87,22 +152,22 @@ impl<const P: usize> Banded<P> {
     pub fn add(&mut self, i: usize, j: usize, value: f64) {
         if i == j {
             self.diagonal[i] += value;
-        } else if let Some((row, k)) = self.slot(i, j) {
-            self.beside[row][k] += value;
+        } else if let Some(at) = self.slot(i, j) {
+            self.beside[at] += value;
         } else {
             debug_assert!(false, "entry ({i}, {j}) lies outside the band");
         }
     }
 
-    /// Sets a row's own element, and those beside it on the right (wrapped round when cyclic; when open, what
+    /// Sets a row's own element, and the p beside it on the right (wrapped round when cyclic; when open, what
     /// runs off the end must be 0).
-    pub fn set_row(&mut self, i: usize, diagonal: f64, beside: [f64; P]) {
+    pub fn set_row(&mut self, i: usize, diagonal: f64, beside: &[f64]) {
         debug_assert!(
             self.cyclic || beside.iter().skip(self.len() - 1 - i).all(|a| *a == 0.0),
             "nothing runs off the end"
         );
         self.diagonal[i] = diagonal;
-        self.beside[i] = beside;
+        self.beside[i * self.half_width..][..self.half_width].copy_from_slice(beside);
     }
 
     /// Adds `weight · r rᵀ`, with the non-zero elements of `r` given as (index, value).
@@ -116,28 +181,143 @@ impl<const P: usize> Banded<P> {
         }
     }
 
-    /// `out = A x` for one number a row. O(n P), allocates nothing.
+    /// Adds one number a row to the diagonal.
+    pub fn add_diagonal(&mut self, values: &[f64]) {
+        debug_assert_eq!(values.len(), self.len(), "one number a row");
+        for (a, value) in self.diagonal.iter_mut().zip(values) {
+            *a += value;
+        }
+    }
+
+    /// Adds a multiple of the identity.
+    pub fn add_identity(&mut self, value: f64) {
+        for a in &mut self.diagonal {
+            *a += value;
+        }
+    }
+
+    /// Multiplies every entry.
+    pub fn scale(&mut self, factor: f64) {
+        for a in self.diagonal.iter_mut().chain(&mut self.beside) {
+            *a *= factor;
+        }
+    }
+
+    /// Sets the rows and columns of held nodes to zero, the diagonal included.
+    pub fn hold(&mut self, held: &[bool]) {
+        let n = self.len();
+        debug_assert_eq!(held.len(), n, "one mark a row");
+        for (i, row) in self.beside.chunks_exact_mut(self.half_width).enumerate() {
+            if held[i] {
+                self.diagonal[i] = 0.0;
+                row.fill(0.0);
+            }
+            for (k, a) in row.iter_mut().enumerate() {
+                if held[(i + 1 + k) % n] {
+                    *a = 0.0;
+                }
+            }
+        }
+    }
+
+    /// `out = A x`, both coordinates. O(n p), allocates nothing.
+    pub fn multiply_into(&self, x: &[DVec2], out: &mut [DVec2]) {
+        unrolled!(self.half_width, P => self.product::<P, _>(x, out));
+    }
+
+    /// `out = A x` for one number a row. O(n p), allocates nothing.
     pub fn multiply_scalars_into(&self, x: &[f64], out: &mut [f64]) {
-        debug_assert!(
-            x.len() == self.len() && out.len() == self.len(),
-            "one element a row"
-        );
-        for (i, out) in out.iter_mut().enumerate() {
-            *out = self.row(i, x).0;
+        unrolled!(self.half_width, P => self.product::<P, _>(x, out));
+    }
+
+    fn product<const P: usize, V>(&self, x: &[V], out: &mut [V])
+    where
+        V: Copy + Add<Output = V> + Mul<f64, Output = V>,
+    {
+        let n = self.len();
+        debug_assert!(x.len() == n && out.len() == n, "one element a row");
+        let rows = self.rows::<P>();
+        let edge = P.min(n - P);
+        for i in (0..edge).chain(n - P..n) {
+            let mut sum = x[i] * self.diagonal[i];
+            for k in 1..=P {
+                let (back, next) = ((i + n - k) % n, (i + k) % n);
+                sum = sum + (x[back] * rows[back][k - 1] + x[next] * rows[i][k - 1]);
+            }
+            out[i] = sum;
+        }
+        for i in P..n - P {
+            let (x, rows) = (&x[i - P..=i + P], &rows[i - P..=i]);
+            let mut sum = x[P] * self.diagonal[i];
+            for k in 1..=P {
+                sum = sum + (x[P - k] * rows[P - k][k - 1] + x[P + k] * rows[P][k - 1]);
+            }
+            out[i] = sum;
         }
     }
 
     /// Row `i` times `x`, and the sum of the row's magnitudes.
-    fn row(&self, i: usize, x: &[f64]) -> (f64, f64) {
+    pub(crate) fn row(&self, i: usize, x: &[f64]) -> (f64, f64) {
         let n = self.len();
         let (mut sum, mut size) = (self.diagonal[i] * x[i], self.diagonal[i].abs());
-        for k in 1..=P {
+        for k in 1..=self.half_width {
             let (back, next) = ((i + n - k) % n, (i + k) % n);
-            let (before, after) = (self.beside[back][k - 1], self.beside[i][k - 1]);
+            let (before, after) = (self.beside(back)[k - 1], self.beside(i)[k - 1]);
             sum += before * x[back] + after * x[next];
             size += before.abs() + after.abs();
         }
         (sum, size)
+    }
+
+    /// `xᵀ A x`, the two coordinates summed. O(n p), allocates nothing.
+    #[must_use]
+    pub fn quadratic(&self, x: &[DVec2]) -> f64 {
+        let n = self.len();
+        debug_assert_eq!(x.len(), n, "one element a row");
+        let mut sum = 0.0;
+        for i in 0..n {
+            sum += self.diagonal[i] * x[i].length_squared();
+            for (k, a) in self.beside(i).iter().enumerate() {
+                sum += 2.0 * a * x[i].dot(x[(i + 1 + k) % n]);
+            }
+        }
+        sum
+    }
+
+    /// Largest sum of magnitudes along a row: no eigenvalue is larger.
+    #[must_use]
+    pub fn norm(&self) -> f64 {
+        let zeros = vec![0.0; self.len()];
+        // NaN goes through
+        (0..self.len())
+            .map(|i| self.row(i, &zeros).1)
+            .fold(0.0, |most, size| if size <= most { most } else { size })
+    }
+
+    /// The numbers of every row (diagonal, then beside) when all rows are the same to four units in the last place of
+    /// the row sum; those of a row in the middle. `None` when open, or when rows differ by more.
+    #[must_use]
+    pub fn circulant(&self) -> Option<Vec<f64>> {
+        let middle = self.len() / 2;
+        let (diagonal, beside) = (self.diagonal[middle], self.beside(middle));
+        let size = diagonal.abs() + 2.0 * beside.iter().map(|a| a.abs()).sum::<f64>();
+        let same = |a: f64, typical: f64| (a - typical).abs() <= 4.0 * f64::EPSILON * size;
+        let even = self.diagonal.iter().all(|&a| same(a, diagonal))
+            && (0..self.len())
+                .all(|i| self.beside(i).iter().zip(beside).all(|(&a, &b)| same(a, b)));
+        (self.cyclic && even).then(|| [&[diagonal], beside].concat())
+    }
+
+    /// Whether `xᵀ A x > 0` for every `x` but zero, by the signs of the LDLᵀ pivots. O(n p²).
+    #[must_use]
+    pub fn is_positive_definite(&self) -> bool {
+        self.is_positive(|d, _| d, 1.0)
+    }
+
+    /// Whether the matrix with diagonal `diagonal(A[i][i], i)` and off-diagonals `sign · A` is positive.
+    pub(crate) fn is_positive(&self, diagonal: impl Fn(f64, usize) -> f64, sign: f64) -> bool {
+        let mut factor = Ldl::<f64>::empty(self.half_width);
+        factor.eliminate(self, diagonal, sign).is_ok()
     }
 
     /// All n² entries.
@@ -145,217 +325,4 @@ impl<const P: usize> Banded<P> {
     pub fn dense(&self) -> Dense {
         Dense::from_fn(self.len(), |i, j| self.entry(i, j))
     }
-}
-
-/// `A = L D Lᵀ` of a positive definite [`Banded`]: factor once, solve many times.
-///
-/// Rows in order; when cyclic the last `P` are the border, eliminated last. O(n P²) to make and
-/// O(n P) to use; each row waits for the one before.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BandedFactor<const P: usize> {
-    /// One over the pivot, and the column of L under it.
-    links: Vec<(f64, [f64; P])>,
-    /// Couplings to the border over the pivot, zero where they have faded; none when open.
-    spikes: Vec<[f64; P]>,
-    border: Vec<(f64, [f64; P])>,
-}
-
-impl<const P: usize> BandedFactor<P> {
-    /// Factors a matrix. O(n P²).
-    ///
-    /// # Errors
-    ///
-    /// Refuses, with the row, a matrix that is not positive definite, one that is singular to
-    /// working precision (condition number above about 1e14), and numbers that are not finite.
-    pub fn new(a: &Banded<P>) -> Result<Self, BandedError> {
-        let n = a.len();
-        let mut factor = Self {
-            links: Vec::new(),
-            spikes: Vec::new(),
-            border: Vec::new(),
-        };
-        factor.renew(a)?;
-        let Weakest {
-            row,
-            reciprocal_condition,
-            ..
-        } = weakest(n, |x| factor.solve_scalars(x), |i, x| a.row(i, x));
-        if reciprocal_condition.is_nan() {
-            Err(BandedError::NotFinite { row })
-        } else if reciprocal_condition < SINGULAR {
-            Err(BandedError::Singular {
-                row,
-                reciprocal_condition,
-            })
-        } else {
-            Ok(factor)
-        }
-    }
-
-    /// Factors another matrix in the same memory, for those that change at every step. O(n P²).
-    ///
-    /// Leaves out the estimate of the condition number, which costs as much as some solves: what
-    /// [`new`](Self::new) would refuse as singular to working precision passes here unless a pivot is not
-    /// positive. After an error the factor is of no use until the next.
-    ///
-    /// # Errors
-    ///
-    /// Refuses, with the row, a matrix that is not positive definite, and numbers that are not finite.
-    pub fn renew(&mut self, a: &Banded<P>) -> Result<(), BandedError> {
-        let n = a.len();
-        let inner = if a.cyclic { n - P } else { n };
-        self.spikes.clear();
-        let mut corner = [[0.0; P]; P];
-        if a.cyclic {
-            self.spikes.resize(inner, [0.0; P]);
-            for b in 0..P {
-                (0..P).for_each(|c| corner[b][c] = a.entry(inner + b, inner + c));
-                for i in (0..P).chain(inner - P..inner) {
-                    self.spikes[i][b] = a.entry(i, inner + b);
-                }
-            }
-        }
-        let faded = FADED * a.diagonal.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
-        self.links.clear();
-        // what the rows before take from this one and the next P: diagonal, then beside
-        let mut taken = [[0.0; P]; P];
-        let mut taken_diagonal = [0.0; P];
-        for i in 0..inner {
-            let reciprocal = positive(a.diagonal[i] - taken_diagonal[0], i)?;
-            let mut column = a.beside[i];
-            for k in 0..P {
-                column[k] -= taken[0][k];
-            }
-            let reach = P.min(inner - 1 - i);
-            column[reach..].fill(0.0);
-            let scaled = column.map(|a| a * reciprocal);
-            for k in 1..P {
-                taken_diagonal[k - 1] = taken_diagonal[k];
-                taken[k - 1] = taken[k];
-            }
-            taken_diagonal[P - 1] = 0.0;
-            taken[P - 1] = [0.0; P];
-            for k in 0..P {
-                taken_diagonal[k] += scaled[k] * column[k];
-                for j in k + 1..P {
-                    taken[k][j - k - 1] += scaled[k] * column[j];
-                }
-            }
-            self.links.push((reciprocal, scaled));
-            if a.cyclic {
-                let spikes = &mut self.spikes;
-                let spike = spikes[i];
-                if spike.iter().all(|g| g.abs() <= faded) {
-                    spikes[i] = [0.0; P];
-                    continue;
-                }
-                for k in 0..reach {
-                    (0..P).for_each(|b| spikes[i + k + 1][b] -= scaled[k] * spike[b]);
-                }
-                spikes[i] = spike.map(|g| g * reciprocal);
-                for b in 0..P {
-                    (0..P).for_each(|c| corner[b][c] -= spikes[i][b] * spike[c]);
-                }
-            }
-        }
-        self.border = if a.cyclic {
-            small_factor(corner, inner)?
-        } else {
-            Vec::new()
-        };
-        Ok(())
-    }
-
-    /// The number of rows.
-    #[must_use]
-    #[allow(clippy::len_without_is_empty, reason = "a matrix has at least one row")]
-    pub fn len(&self) -> usize {
-        self.links.len() + self.border.len()
-    }
-
-    /// Turns the right-hand side `b` into the solution, x and y in one sweep. Allocates nothing.
-    pub fn solve(&self, b: &mut [DVec2]) {
-        self.sweep(b);
-    }
-
-    /// Turns the right-hand side `b` into the solution, one number a row. Allocates nothing.
-    pub fn solve_scalars(&self, b: &mut [f64]) {
-        self.sweep(b);
-    }
-
-    fn sweep<V: Node<f64>>(&self, b: &mut [V]) {
-        debug_assert_eq!(b.len(), self.len(), "one element a row");
-        let inner = self.links.len();
-        let (b, border) = b.split_at_mut(inner);
-        let mut window = [V::default(); P];
-        window.copy_from_slice(&b[..P]);
-        for (i, (_, column)) in self.links.iter().enumerate() {
-            let y = window[0];
-            b[i] = y;
-            for k in 1..P {
-                window[k - 1] = window[k] - y * column[k - 1];
-            }
-            let entering = b.get(i + P).copied().unwrap_or_default();
-            window[P - 1] = entering - y * column[P - 1];
-        }
-        for (y, spike) in b.iter().zip(&self.spikes) {
-            for (rest, f) in border.iter_mut().zip(spike) {
-                *rest = *rest - *y * *f;
-            }
-        }
-        for i in 0..self.border.len() {
-            for (k, f) in (i + 1..P).zip(self.border[i].1) {
-                border[k] = border[k] - border[i] * f;
-            }
-        }
-        for (i, (reciprocal, column)) in self.border.iter().enumerate().rev() {
-            border[i] = border[i] * *reciprocal;
-            for (k, f) in (i + 1..P).zip(column) {
-                border[i] = border[i] - border[k] * *f;
-            }
-        }
-        window = [V::default(); P];
-        for (i, (reciprocal, column)) in self.links.iter().enumerate().rev() {
-            let mut x = b[i] * *reciprocal;
-            if let Some(spike) = self.spikes.get(i) {
-                for (known, f) in border.iter().zip(spike) {
-                    x = x - *known * *f;
-                }
-            }
-            // the nearest last: it is the one that is waited for
-            for k in (0..P).rev() {
-                x = x - window[k] * column[k];
-            }
-            for k in (1..P).rev() {
-                window[k] = window[k - 1];
-            }
-            window[0] = x;
-            b[i] = x;
-        }
-    }
-}
-
-/// One over a pivot, or why there is none.
-fn positive(pivot: f64, row: usize) -> Result<f64, BandedError> {
-    crate::scalar::Entry::reciprocal(pivot, row)
-}
-
-/// LDLᵀ of the block at the border: pivots' reciprocals, and columns counted from below the pivot.
-fn small_factor<const P: usize>(
-    mut a: [[f64; P]; P],
-    first: usize,
-) -> Result<Vec<(f64, [f64; P])>, BandedError> {
-    let mut links = Vec::with_capacity(P);
-    for k in 0..P {
-        let reciprocal = positive(a[k][k], first + k)?;
-        let mut column = [0.0; P];
-        for i in k + 1..P {
-            column[i - k - 1] = a[i][k] * reciprocal;
-            for j in k + 1..P {
-                a[i][j] -= column[i - k - 1] * a[k][j];
-            }
-        }
-        links.push((reciprocal, column));
-    }
-    Ok(links)
 }
