@@ -5,8 +5,8 @@
 #![allow(clippy::expect_used, reason = "a bench that cannot start may stop")]
 
 use banded::{
-    Banded, BandedFactor, Circulant, Complex, ComplexFactor, ComplexPoint, Factor, LaneFactor,
-    LanePoint, Operator, Pentadiagonal, largest_eigenvalue,
+    Band, Banded, BandedFactor, Circulant, Complex, ComplexFactor, ComplexPoint, Factor,
+    LaneFactor, LanePoint, Operator, Pentadiagonal, largest_eigenvalue,
 };
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::DVec2;
@@ -119,13 +119,13 @@ fn side_by_side(c: &mut Criterion) {
 fn other_ways(c: &mut Criterion) {
     for n in [100, 128, 1000, 8192, 100_000] {
         let b = right_side(n);
-        let mut circulant = Circulant::new(&matrix(n, true, 0.0)).expect("even and closed");
+        let mut circulant = Circulant::new(&matrix(n, true, 0.0).into()).expect("even and closed");
         let gains = circulant.reciprocals().expect("positive by one");
         timed(c, "cyclic-fourier", n, &b, |x| circulant.filter(&gains, x));
 
         // x and y alternate, and a spring across at every node couples them
         let narrow = matrix(n, true, 0.5);
-        let mut wide = Banded::<4>::new(2 * n, true).expect("all sizes are above 9");
+        let mut wide = Banded::new(2 * n, 4, true).expect("all sizes are above 9");
         for i in 0..n {
             wide.add_outer(1.0, &[(2 * i, 1.0), (2 * i + 1, 0.5)]);
             for k in 0..3 {
@@ -137,6 +137,31 @@ fn other_ways(c: &mut Criterion) {
         let factor = BandedFactor::new(&wide).expect("positive by one");
         let flat: Vec<f64> = b.iter().flat_map(|b| b.to_array()).collect();
         timed(c, "cyclic-coupled", n, &flat, |x| factor.solve_scalars(x));
+    }
+}
+
+/// Products, factors and solves against the order p: five diagonals, then two more for each order.
+fn orders(c: &mut Criterion) {
+    let n = 1000;
+    for p in 2..=6 {
+        let mut a = Band::new(n, p, true).expect("rows enough");
+        a.add_identity(1.0);
+        for i in 0..n {
+            let spring: Vec<_> = (0..=p)
+                .map(|k| ((i + k) % n, 1.0 - 0.3 * k as f64))
+                .collect();
+            a.add_outer(1.0 + 0.5 * (i as f64).sin(), &spring);
+        }
+        let b = right_side(n);
+        let own = a.factor().expect("positive by one");
+        timed(c, &format!("order-{p}"), n, &b, |x| own.solve(x));
+        let mut group = c.benchmark_group(format!("order-{p}"));
+        group.throughput(Throughput::Elements(n as u64));
+        let mut out = b.clone();
+        group.bench_function("product", |bencher| {
+            bencher.iter(|| a.multiply_into(black_box(&b), black_box(&mut out)));
+        });
+        group.bench_function("factor", |bencher| bencher.iter(|| black_box(&a).factor()));
     }
 }
 
@@ -170,7 +195,7 @@ fn product(c: &mut Criterion) {
 fn eigenvalue(c: &mut Criterion) {
     let mut group = c.benchmark_group("largest-eigenvalue/cyclic");
     for n in [32, 100, 512, 8192] {
-        let (a, w) = (matrix(n, true, 0.5), vec![1.0; n]);
+        let (a, w) = (Band::from(matrix(n, true, 0.5)), vec![1.0; n]);
         group.throughput(Throughput::Elements(n as u64));
         group.bench_function(BenchmarkId::from_parameter(n), |bencher| {
             bencher.iter(|| largest_eigenvalue(black_box(&a), &w));
@@ -193,6 +218,7 @@ criterion_group!(
     solve,
     side_by_side,
     other_ways,
+    orders,
     factor,
     product,
     eigenvalue

@@ -211,6 +211,10 @@ impl Band {
 
 /// The factor of a [`Band`].
 #[derive(Debug, Clone, PartialEq)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "one a scheme, and the fast way is not to be one more pointer off"
+)]
 pub enum BandFactor {
     /// Of five diagonals.
     Narrow(Factor),
@@ -242,6 +246,10 @@ impl BandFactor {
 
 /// The factor of a [`Band`] with a complex diagonal added.
 #[derive(Debug, Clone, PartialEq)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "one a scheme, and the fast way is not to be one more pointer off"
+)]
 pub enum ComplexBandFactor {
     /// Of five diagonals.
     Narrow(ComplexFactor),

@@ -17,7 +17,7 @@ use crate::{BandedError, Dense};
 /// Calls with the half width as a constant `P`, so that loops over it are unrolled.
 macro_rules! unrolled {
     ($width:expr, $P:ident => $call:expr) => {
-        $crate::wide::unrolled!(@ $width, $P, $call, 1 2 3 4 5 6 7 8 9 10 11)
+        $crate::wide::unrolled!(@ $width, $P, $call, 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
     };
     (@ $width:expr, $P:ident, $call:expr, $($p:literal)*) => {
         match $width {
@@ -51,8 +51,8 @@ pub struct Banded {
 }
 
 impl Banded {
-    /// The largest half width: x and y in turn of a curve of order 6.
-    pub const WIDEST: usize = 12;
+    /// The largest half width: x and y in turn of a curve of order 6, seen from a frame that turns.
+    pub const WIDEST: usize = 16;
 
     /// The zero matrix with `n` rows and `half_width` diagonals on either side.
     ///

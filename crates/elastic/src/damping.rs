@@ -52,10 +52,11 @@ pub fn greatest_stiffness(
 ) -> Result<Vec<f64>, ElasticError> {
     let k = stiffness(topology, material, spacing, n)?;
     let mut rows: Vec<f64> = k.diagonal().to_vec();
-    for (reach, beside) in [(1, k.first()), (2, k.second())] {
-        for (i, entry) in beside.iter().enumerate() {
-            rows[i] += entry.abs();
-            rows[(i + reach) % n] += entry.abs();
+    for reach in 1..=k.half_width() {
+        for i in 0..n {
+            let entry = k.beside(i, reach).abs();
+            rows[i] += entry;
+            rows[(i + reach) % n] += entry;
         }
     }
     Ok(rows)
@@ -79,7 +80,7 @@ pub fn critical_damping(mass: &Profile, stiffness: &[f64]) -> Vec<f64> {
 }
 
 impl Material {
-    /// The densities of internal damping: tension and rigidity times a `time`, and no tether.
+    /// The densities of internal damping: tension, rigidity and those above times a `time`, and no tether.
     ///
     /// ```text
     /// force = − β K v = elastic_force(v, …, damper),   β = time
@@ -94,6 +95,7 @@ impl Material {
             tether: Profile::Uniform(0.0),
             tension: self.tension.scaled(time),
             rigidity: self.rigidity.scaled(time),
+            higher: self.higher.iter().map(|w| w.scaled(time)).collect(),
         }
     }
 }

@@ -4,7 +4,7 @@
 //! drawing where a curve is strained, it cannot say yet.
 
 use crate::profile::Lane;
-use crate::{Material, Topology};
+use crate::{Material, Topology, kernel_walk};
 use glam::DVec2;
 
 /// The elastic energy of a deformation, one number a term. M L³ T⁻².
@@ -16,13 +16,15 @@ pub struct ElasticEnergy {
     pub tension: f64,
     /// ½ ∫ ω₂ |∂²e/∂s²|² ds.
     pub rigidity: f64,
+    /// ½ ∫ Σ ωₘ |∂ᵐe/∂sᵐ|² ds over the orders m above the second.
+    pub higher: f64,
 }
 
 impl ElasticEnergy {
-    /// The three together.
+    /// All together.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.tether + self.tension + self.rigidity
+        self.tether + self.tension + self.rigidity + self.higher
     }
 }
 
@@ -32,13 +34,13 @@ impl ElasticEnergy {
 /// ξ = ½ h ( Σ ω₀[i] |e[i]|²  +  Σ ω₁[i] |e[i+1] − e[i]|² / h²  +  Σ ω₂[i] |e[i+1] − 2 e[i] + e[i−1]|² / h⁴ )
 /// ```
 ///
-/// over nodes, edges and bends that exist. `e` holds one deformation a node. An integral over arc
+/// over nodes, edges and bends that exist, and so on for the orders above. `e` holds one deformation a node. An integral over arc
 /// length, so that it does not depend on the number of nodes beyond the error of the differences (second
 /// order closed; an end node of an open curve counts for a whole `h`, which is first order). O(n).
 ///
 /// The arguments are trusted: they are what [`stiffness`](crate::stiffness) would accept.
 ///
-/// Report Eq. 2.5 and 2.6 with p = 2.
+/// Report Eq. 2.5 and 2.6.
 #[must_use]
 pub fn elastic_energy(
     e: &[DVec2],
@@ -81,12 +83,20 @@ pub fn elastic_energy(
         let bent = (c - b) - (b - a);
         rigidity += (bend.share * w2.at(bend.weight)) * (bent * bent);
     }
+    let higher = if material.higher.is_empty() {
+        0.0
+    } else {
+        kernel_walk::energy((3, &material.higher), e, topology, spacing)
+            .iter()
+            .sum()
+    };
     let half = 0.5 * spacing;
     let per_h2 = 1.0 / (spacing * spacing);
     ElasticEnergy {
         tether: half * tether.element_sum(),
         tension: half * per_h2 * tension.element_sum(),
         rigidity: half * per_h2 * per_h2 * rigidity.element_sum(),
+        higher,
     }
 }
 

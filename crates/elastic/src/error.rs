@@ -65,20 +65,23 @@ pub enum ElasticError {
     BadPower {
         /// What was given.
         spacing: f64,
-        /// The power that the order of the kernel asks for.
+        /// The power that the order asks for.
         power: usize,
     },
-    /// A kernel without weights, or of too high an order.
-    #[error("a kernel has weights of the orders 0 to at most {highest}, so 1 to {} of them, got {weights}", highest + 1)]
+    /// Elasticity without weights, or of too high an order.
+    #[error("elasticity has weights of the orders 0 to at most {highest}, so 1 to {} of them, got {weights}", highest + 1)]
     BadOrder {
         /// The highest order that would do.
         highest: usize,
         /// How many weights were given.
         weights: usize,
     },
-    /// A kernel of any order with an end that only a material of order 2 has.
-    #[error("the ends of a kernel cannot be clamped; a material of order 2 can")]
-    ClampedKernel,
+    /// Orders above the second where each edge has a length of its own.
+    #[error("edges of their own lengths know no orders above the second, got order {order}")]
+    OrderOfSpacings {
+        /// The order of the material.
+        order: usize,
+    },
     /// The stiffness matrix is not finite, though each density is.
     #[error("the densities are too large for a spacing of {spacing}: the stiffness is not finite")]
     TooStiff {

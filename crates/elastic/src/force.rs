@@ -13,21 +13,23 @@
 //! Differences first, then weights: a curve that is only shifted feels exactly nothing from tension
 //! and rigidity, whatever the rounding.
 //!
+//! Orders above the second are added by a walk of their own (`kernel_walk`).
+//!
 //! One spacing serves the whole curve; edges of their own lengths are [`Spacings`](crate::Spacings).
 
 use crate::profile::Lane;
-use crate::{End, Material, Topology};
+use crate::{End, Material, Topology, kernel_walk};
 use glam::DVec2;
 use lanes::{flat, flat_mut, wide};
 
 /// Elastic force on every node: what the curve feels for not being at rest.
 ///
 /// ```text
-/// F[i] = − ω₀ e[i] + D₁⁻(ω₁ D₁⁺ e)[i] − D₂(ω₂ D₂ e)[i]
+/// F[i] = − ω₀ e[i] + D₁⁻(ω₁ D₁⁺ e)[i] − D₂(ω₂ D₂ e)[i] + …
 /// ```
 ///
 /// `e` holds one deformation a node; `force` has the same length and is overwritten. Per arc length:
-/// M L T⁻². O(n), allocates nothing. It is `−K e` with K of [`stiffness`](crate::stiffness), and minus
+/// M L T⁻². O(n p), allocates nothing. It is `−K e` with K of [`stiffness`](crate::stiffness), and minus
 /// the gradient of [`elastic_energy`](crate::elastic_energy) over `spacing`, for every topology. A
 /// [pinned](End::Pinned) end is told its force like any other.
 ///
@@ -62,6 +64,9 @@ pub fn elastic_force(
         let boundary = weights.boundary(e, topology);
         let walk = weights.walk(e, boundary.start(e), force);
         weights.finish(e, walk, &boundary, force);
+    }
+    if !material.higher.is_empty() {
+        kernel_walk::add_force((3, &material.higher), e, topology, spacing, force);
     }
 }
 
@@ -142,7 +147,7 @@ const REACH: usize = BLOCK + 4;
 
 /// Elastic force on every node of a body: [`elastic_force`] of `e = x − center − rest`.
 ///
-/// To the same digits, but where the densities are the same everywhere, `e` is never written down as
+/// To the same digits, but where the densities are the same everywhere and none is of an order above 2, `e` is never written down as
 /// a whole. Otherwise it is left in `e`, which has as many nodes. O(n), allocates nothing.
 ///
 /// Report Eq. 2.2 and 3.2.
@@ -155,7 +160,7 @@ pub fn body_force(
 ) {
     let n = x.len();
     let w = match material.uniform_densities() {
-        Some([w0, w1, w2]) if n >= LEAST => {
+        Some([w0, w1, w2]) if n >= LEAST && material.higher.is_empty() => {
             let per_h2 = 1.0 / (spacing * spacing);
             [w0, w1 * per_h2, w2 * (per_h2 * per_h2)]
         }

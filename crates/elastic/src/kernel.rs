@@ -4,8 +4,8 @@
 //! derivative resists a change of bending, the fourth a change of that: a curve with ω₃ springs back
 //! with rounder bumps, and pins its neighbours' curvature where ω₂ pins their direction.
 //!
-//! Here are the weights, what is checked of them, and K; force and energy are in `kernel_walk`. Ends that are clamped
-//! it does not know: what else must vanish there depends on the order.
+//! Here are the weights, what is checked of them, and K; force and energy are in `kernel_walk`. A [`Material`] with weights
+//! above the second order comes here for them.
 
 use crate::{Bound, ElasticError, End, Material, Profile, Topology};
 use banded::Banded;
@@ -43,10 +43,23 @@ pub struct Kernel {
     pub weights: Vec<Profile>,
 }
 
-/// One row of a difference of order m: its first node, and the number of its weight.
+/// What each weight is called in refusals.
+pub(crate) const NAMES: [&str; Kernel::HIGHEST + 1] = [
+    "the weight of order 0",
+    "the weight of order 1",
+    "the weight of order 2",
+    "the weight of order 3",
+    "the weight of order 4",
+    "the weight of order 5",
+    "the weight of order 6",
+];
+
+/// One row of a difference of order m.
 pub(crate) struct Row {
-    pub(crate) exists: bool,
+    /// Which weight it takes.
     pub(crate) weight: usize,
+    /// How much of a spacing it stands for: 0 where there is none, half where the other half is a mirror image.
+    pub(crate) share: f64,
 }
 
 impl Kernel {
@@ -76,15 +89,16 @@ impl Kernel {
         }
     }
 
-    /// The same as a [`Material`], which is quicker; none above order 2.
+    /// The same as a [`Material`], whose orders up to 2 are quicker.
     #[must_use]
-    pub fn to_material(&self) -> Option<Material> {
+    pub fn to_material(&self) -> Material {
         let weight = |m: usize| self.weights.get(m).cloned().unwrap_or(0.0.into());
-        (self.order() <= 2).then(|| Material {
+        Material {
             tether: weight(0),
             tension: weight(1),
             rigidity: weight(2),
-        })
+            higher: self.weights.iter().skip(3).cloned().collect(),
+        }
     }
 
     /// The door: what it lets through, [`force`](Self::force), [`energy`](Self::energy) and
@@ -93,27 +107,13 @@ impl Kernel {
     /// # Errors
     ///
     /// No weights, more than up to order [`HIGHEST`](Self::HIGHEST), too few nodes, weights that do not fit or are
-    /// negative or not finite, clamped ends, a spacing that cannot be divided by, a K that is not finite.
+    /// negative or not finite, a spacing that cannot be divided by, a K that is not finite.
     pub fn validate(&self, topology: Topology, spacing: f64, n: usize) -> Result<(), ElasticError> {
-        const NAMES: [&str; Kernel::HIGHEST + 1] = [
-            "the weight of order 0",
-            "the weight of order 1",
-            "the weight of order 2",
-            "the weight of order 3",
-            "the weight of order 4",
-            "the weight of order 5",
-            "the weight of order 6",
-        ];
         if self.weights.is_empty() || self.order() > Self::HIGHEST {
             return Err(ElasticError::BadOrder {
                 highest: Self::HIGHEST,
                 weights: self.weights.len(),
             });
-        }
-        if let Topology::Open { head, tail } = topology
-            && (head == End::Clamped || tail == End::Clamped)
-        {
-            return Err(ElasticError::ClampedKernel);
         }
         let needed = self.least_nodes(topology);
         if n < needed {
@@ -161,47 +161,33 @@ impl Kernel {
     /// K = Σ Dᵐᵀ ωₘ Dᵐ / h²ᵐ
     /// ```
     ///
-    /// `n` × `n`, cyclic if closed; `P` at least the order, and 1 at least. Symmetric and never negative, being
-    /// assembled from the differences that exist. O(n p²). Pinned ends are not masked here.
+    /// `n` × `n`, cyclic if closed, its half width 1 at least. Symmetric and never negative, being
+    /// assembled from the differences that exist. O(n p²). Pinned and clamped ends are not masked here.
     ///
     /// # Errors
     ///
-    /// As [`validate`](Self::validate); a `P` below the order; fewer nodes than a band of `P` needs.
-    pub fn stiffness<const P: usize>(
+    /// As [`validate`](Self::validate); fewer than two nodes.
+    pub fn stiffness(
         &self,
         topology: Topology,
         spacing: f64,
         n: usize,
-    ) -> Result<Banded<P>, ElasticError> {
+    ) -> Result<Banded, ElasticError> {
         self.validate(topology, spacing, n)?;
-        if self.order() > P {
-            return Err(ElasticError::BadOrder {
-                highest: P,
-                weights: self.weights.len(),
-            });
-        }
-        let mut k = Banded::new(n, topology.is_closed())?;
+        let mut k = Banded::new(n, self.order().max(1), topology.is_closed())?;
         let mut coefficients = vec![1.0];
-        let mut row = Vec::with_capacity(P + 1);
+        let mut row = Vec::with_capacity(self.order() + 1);
         for (m, weight) in self.weights.iter().enumerate() {
             let per = power(spacing, m);
             let rows = n + m; // from m before node 0 on
             for at in 0..rows {
-                let Row {
-                    exists,
-                    weight: index,
-                } = topology.row(m, at, n);
-                if exists && !(topology.is_closed() && at < m) {
+                let Row { share, weight: own } = topology.row(m, at, n);
+                if share > 0.0 && !(topology.is_closed() && at < m) {
                     row.clear();
                     for (j, &c) in coefficients.iter().enumerate() {
-                        let node = at + j;
-                        if topology.is_closed() {
-                            row.push(((node + n - m) % n, c));
-                        } else if (m..m + n).contains(&node) {
-                            row.push((node - m, c));
-                        }
+                        row.extend(topology.seen(at + j, m, n).map(|node| (node, c)));
                     }
-                    k.add_outer(weight.at(index) * per, &row);
+                    k.add_outer(share * weight.at(own) * per, &row);
                 }
             }
             // the next row of Pascal's triangle, with its signs: (1 − z)ᵐ
@@ -215,34 +201,50 @@ impl Kernel {
 }
 
 impl From<&Material> for Kernel {
-    /// The same three weights, order 2.
+    /// The same weights.
     fn from(material: &Material) -> Self {
+        let lower = [&material.tether, &material.tension, &material.rigidity];
         Self {
-            weights: vec![
-                material.tether.clone(),
-                material.tension.clone(),
-                material.rigidity.clone(),
-            ],
+            weights: lower.into_iter().chain(&material.higher).cloned().collect(),
         }
     }
 }
 
 impl Topology {
-    /// Whether the difference of order `m` that begins at node `at − m` exists, and which weight it takes.
+    /// The difference of order `m` that begins at node `at − m`.
     ///
-    /// Free ends: where all its nodes are real. Anchored: where at least one is.
+    /// Free ends: it exists where all its nodes are real. Anchored: where at least one is. Clamped: where no more than one
+    /// lies beyond the end, the mirror image of the node before it, and the middle of the difference does not.
     pub(crate) fn row(self, m: usize, at: usize, n: usize) -> Row {
         let middle = at + m / 2;
-        match self {
-            Self::Closed => Row {
-                exists: true,
+        let Self::Open { head, tail } = self else {
+            return Row {
                 weight: (middle + n - m % n) % n,
-            },
-            Self::Open { head, tail } => Row {
-                exists: (head == End::Anchored || at >= m)
-                    && (at < n || tail == End::Anchored && at < n + m),
-                weight: middle.saturating_sub(m).min(n - 1),
-            },
+                share: 1.0,
+            };
+        };
+        let half = if m == 2 { 0.5 } else { 1.0 };
+        // how far it reaches beyond an end
+        let beyond = |end: End, over: usize| match (end, over) {
+            (_, 0) => 1.0,
+            (End::Anchored, over) if over <= m => 1.0,
+            (End::Clamped, 1) if m >= 2 => half,
+            _ => 0.0,
+        };
+        Row {
+            weight: middle.saturating_sub(m).min(n - 1),
+            share: beyond(head, m.saturating_sub(at)) * beyond(tail, (at + 1).saturating_sub(n)),
+        }
+    }
+
+    /// Whose deformation stands at `place`, counted from `before` nodes before node 0; none: it is at rest.
+    pub(crate) fn seen(self, place: usize, before: usize, n: usize) -> Option<usize> {
+        match self {
+            Self::Closed => Some((place + n - before % n) % n),
+            Self::Open { .. } if (before..before + n).contains(&place) => Some(place - before),
+            Self::Open { head, .. } if head == End::Clamped && place + 1 == before => Some(1),
+            Self::Open { tail, .. } if tail == End::Clamped && place == before + n => Some(n - 2),
+            Self::Open { .. } => None,
         }
     }
 }
@@ -268,11 +270,11 @@ mod tests {
         let third = || Kernel::uniform(&[1.0; 4]);
         assert_eq!(
             words(Kernel::uniform(&[]), FREE, 1.0, 9),
-            "a kernel has weights of the orders 0 to at most 6, so 1 to 7 of them, got 0"
+            "elasticity has weights of the orders 0 to at most 6, so 1 to 7 of them, got 0"
         );
         assert_eq!(
             words(Kernel::uniform(&[1.0; 8]), FREE, 1.0, 9),
-            "a kernel has weights of the orders 0 to at most 6, so 1 to 7 of them, got 8"
+            "elasticity has weights of the orders 0 to at most 6, so 1 to 7 of them, got 8"
         );
         assert_eq!(
             words(third(), Topology::Closed, 1.0, 6),
@@ -281,10 +283,6 @@ mod tests {
         assert_eq!(
             words(Kernel::uniform(&[1.0, 1.0, 1.0, -2.0]), FREE, 1.0, 9),
             "the weight of order 3 must be finite and at least 0, got -2"
-        );
-        assert_eq!(
-            words(third(), Topology::open(End::Clamped), 1.0, 9),
-            "the ends of a kernel cannot be clamped; a material of order 2 can"
         );
         for bad in [0.0, -1.0, 1e-60, 1e60, f64::NAN, f64::INFINITY] {
             assert!(
@@ -295,21 +293,16 @@ mod tests {
         }
         let stiff = Kernel::uniform(&[0.0, 0.0, 0.0, 1e300]);
         assert!(words(stiff, FREE, 1e-10, 9).starts_with("the densities are too large"));
-        let narrow = third().stiffness::<2>(FREE, 1.0, 9).unwrap_err();
-        assert_eq!(
-            narrow.to_string(),
-            "a kernel has weights of the orders 0 to at most 2, so 1 to 3 of them, got 4"
-        );
     }
 
     #[test]
     fn a_material_is_a_kernel_of_order_two_and_back() {
         let material = Material::uniform(1.0, 2.0, 3.0).with_corner(1, 4).unwrap();
-        assert_eq!(Kernel::from(&material).to_material(), Some(material));
+        assert_eq!(Kernel::from(&material).to_material(), material);
         assert_eq!(
             Kernel::uniform(&[5.0]).to_material(),
-            Some(Material::uniform(5.0, 0.0, 0.0))
+            Material::uniform(5.0, 0.0, 0.0)
         );
-        assert_eq!(Kernel::uniform(&[0.0; 4]).to_material(), None);
+        assert_eq!(Kernel::uniform(&[0.0; 4]).to_material().order(), 3);
     }
 }

@@ -9,10 +9,11 @@
 //!
 //! so each order costs two subtractions and two products a node. A tile is some nodes and p more on either
 //! side, few enough for all its storeys to lie on the stack. What the ends are is said in the weights: a
-//! difference that does not exist weighs nothing.
+//! difference that does not exist weighs nothing. Beyond a clamped end stands the mirror image of a node, which hands what it
+//! feels on to that node.
 
 use crate::kernel::{Kernel, power};
-use crate::{Profile, Topology};
+use crate::{End, Profile, Topology};
 use glam::DVec2;
 
 /// Nodes a tile: long enough that the p more on either side cost little.
@@ -42,26 +43,8 @@ impl Kernel {
     ///
     /// The arguments are trusted: they are what [`validate`](Self::validate) would accept. Report Eq. 2.9.
     pub fn force(&self, e: &[DVec2], topology: Topology, spacing: f64, force: &mut [DVec2]) {
-        debug_assert_eq!(e.len(), force.len(), "one force a node");
-        let p = self.order();
-        let mut tile = Tile::new();
-        for (number, out) in force.chunks_mut(NODES).enumerate() {
-            tile.fill(e, topology, p, number * NODES, out.len());
-            let mut flux = [DVec2::ZERO; WIDE];
-            for (m, profile) in self.weights.iter().enumerate().rev() {
-                tile.weigh(profile, power(spacing, m), topology, (m, p, e.len()));
-                let (from, to) = (p - m, tile.len + p);
-                let own = &tile.differences[m];
-                // downwards, so that the neighbour below is still the one of the storey above
-                for b in (from..to).rev() {
-                    let below = if b == 0 { DVec2::ZERO } else { flux[b - 1] };
-                    flux[b] = tile.weights[b] * own[b] + (below - flux[b]);
-                }
-            }
-            for (out, flux) in out.iter_mut().zip(&flux[p..]) {
-                *out = -*flux;
-            }
-        }
+        force.fill(DVec2::ZERO);
+        add_force((0, &self.weights), e, topology, spacing, force);
     }
 
     /// Elastic energy of a deformation, one number an order; those above p are 0. M L³ T⁻².
@@ -79,28 +62,87 @@ impl Kernel {
         topology: Topology,
         spacing: f64,
     ) -> [f64; Self::HIGHEST + 1] {
-        let (p, n) = (self.order(), e.len());
-        let mut energy = [0.0; Self::HIGHEST + 1];
-        let mut tile = Tile::new();
-        for start in (0..n).step_by(NODES) {
-            tile.fill(e, topology, p, start, NODES.min(n - start));
-            for (m, profile) in self.weights.iter().enumerate() {
-                let factor = 0.5 * spacing * power(spacing, m);
-                tile.weigh(profile, factor, topology, (m, p, n));
-                // what begins before node 0 is counted with the first tile, and once round a ring
-                let outside = start == 0 && !topology.is_closed();
-                let from = if outside { 0 } else { p };
-                energy[m] += tile.weights[from..p + tile.len]
-                    .iter()
-                    .zip(&tile.differences[m][from..])
-                    .map(|(w, d)| w * d.length_squared())
-                    .sum::<f64>();
-            }
-        }
-        energy
+        energy((0, &self.weights), e, topology, spacing)
     }
 }
 
+/// Adds the force of the orders from `first` on.
+pub(crate) fn add_force(
+    (first, weights): (usize, &[Profile]),
+    e: &[DVec2],
+    topology: Topology,
+    spacing: f64,
+    force: &mut [DVec2],
+) {
+    debug_assert_eq!(e.len(), force.len(), "one force a node");
+    let (p, n) = (first + weights.len() - 1, e.len());
+    let mut tile = Tile::new();
+    // on the mirror images beyond clamped ends
+    let (mut before, mut after) = (DVec2::ZERO, DVec2::ZERO);
+    for (number, out) in force.chunks_mut(NODES).enumerate() {
+        tile.fill(e, topology, p, number * NODES, out.len());
+        let mut flux = [DVec2::ZERO; WIDE];
+        for m in (0..=p).rev() {
+            let (from, to) = (p - m, tile.len + p);
+            if m == 0 && p > 0 {
+                if number == 0 {
+                    before = flux[p - 1];
+                }
+                after = -flux[to - 1];
+            }
+            if let Some(profile) = m.checked_sub(first).map(|k| &weights[k]) {
+                tile.weigh(profile, power(spacing, m), topology, (m, p, n));
+            } else {
+                tile.weights.fill(0.0);
+            }
+            let own = &tile.differences[m];
+            // downwards, so that the neighbour below is still the one of the storey above
+            for b in (from..to).rev() {
+                let below = if b == 0 { DVec2::ZERO } else { flux[b - 1] };
+                flux[b] = tile.weights[b] * own[b] + (below - flux[b]);
+            }
+        }
+        for (out, flux) in out.iter_mut().zip(&flux[p..]) {
+            *out -= *flux;
+        }
+    }
+    if let Topology::Open { head, tail } = topology {
+        if head == End::Clamped {
+            force[1] += before;
+        }
+        if tail == End::Clamped {
+            force[n - 2] += after;
+        }
+    }
+}
+
+/// The energy of the orders from `first` on.
+pub(crate) fn energy(
+    (first, weights): (usize, &[Profile]),
+    e: &[DVec2],
+    topology: Topology,
+    spacing: f64,
+) -> [f64; Kernel::HIGHEST + 1] {
+    let (p, n) = (first + weights.len() - 1, e.len());
+    let mut energy = [0.0; Kernel::HIGHEST + 1];
+    let mut tile = Tile::new();
+    for start in (0..n).step_by(NODES) {
+        tile.fill(e, topology, p, start, NODES.min(n - start));
+        for (m, profile) in (first..).zip(weights) {
+            let factor = 0.5 * spacing * power(spacing, m);
+            tile.weigh(profile, factor, topology, (m, p, n));
+            // what begins before node 0 is counted with the first tile, and once round a ring
+            let outside = start == 0 && !topology.is_closed();
+            let from = if outside { 0 } else { p };
+            energy[m] += tile.weights[from..p + tile.len]
+                .iter()
+                .zip(&tile.differences[m][from..])
+                .map(|(w, d)| w * d.length_squared())
+                .sum::<f64>();
+        }
+    }
+    energy
+}
 impl Tile {
     const fn new() -> Self {
         Self {
@@ -120,10 +162,8 @@ impl Tile {
             let place = start + b; // p more than the node
             *value = if (p..p + n).contains(&place) {
                 e[place - p]
-            } else if topology.is_closed() {
-                e[(place + n - p) % n]
             } else {
-                DVec2::ZERO
+                topology.seen(place, p, n).map_or(DVec2::ZERO, |i| e[i])
             };
         }
         for m in 1..=p {
@@ -161,9 +201,7 @@ impl Tile {
                     let row = (self.start + b + m)
                         .checked_sub(p)
                         .map(|at| topology.row(m, at, n));
-                    *weight = row
-                        .filter(|row| row.exists)
-                        .map_or(0.0, |row| profile.at(row.weight) * factor);
+                    *weight = row.map_or(0.0, |row| row.share * profile.at(row.weight) * factor);
                 }
             }
         }

@@ -7,7 +7,7 @@
 //! ξ(e) = ½ ∫ ω₀(s) |e|² + ω₁(s) |∂e/∂s|² + ω₂(s) |∂²e/∂s²|²  ds
 //! ```
 //!
-//! ω₀ is the *tether*, ω₁ the *tension*, ω₂ the *rigidity* ([`Material`]). What the curve feels is minus
+//! ω₀ is the *tether*, ω₁ the *tension*, ω₂ the *rigidity* ([`Material`]), and there may be weights of the derivatives above. What the curve feels is minus
 //! the gradient of that energy ([`elastic_force`]), and since the energy is a quadratic form, there is a
 //! matrix `K` with `force = −K e` ([`stiffness`]): symmetric and never negative for any ends and any
 //! densities, because it is assembled from the differences that exist and never written by hand.
@@ -46,7 +46,7 @@
 //! curve has turned and what its motion is made of ([`BestFit`], [`Motion`]), what a node may do ([`Hold`]), and damping
 //! from stiffness ([`critical_damping`], [`InternalDamping`]).
 //!
-//! Not here yet: clamped ends of orders above two, edges of their own lengths for those orders.
+//! Not here yet: edges of their own lengths for orders above two.
 
 #![cfg_attr(
     test,

@@ -1,11 +1,12 @@
-//! What a deformation costs: the three elastic densities (report §3.4.1).
+//! What a deformation costs: the elastic densities (report §3.4.1, and §2.4 for those above the second order).
 //!
 //! The densities are per arc length, so that a curve keeps its behaviour when it gets more nodes. They
 //! cannot depend on the deformation: plasticity is for a later day.
 
-use crate::{Bound, ElasticError, Profile};
+use crate::kernel::NAMES;
+use crate::{Bound, ElasticError, Kernel, Profile};
 
-/// The three elastic densities along a curve. Dimensions with M the unit of mass density.
+/// The elastic densities along a curve. Dimensions with M the unit of mass density.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// ω₀: pulls each node towards its place in the rest shape. M T⁻².
@@ -24,6 +25,12 @@ pub struct Material {
     #[doc(alias = "w2")]
     #[doc(alias = "beta")]
     pub rigidity: Profile,
+    /// ω₃, ω₄, … ωₚ: the orders above the second, if any; ωₘ has the dimension M L²ᵐ T⁻².
+    ///
+    /// The third derivative resists a change of bending, the fourth a change of that. A value at node i acts on the difference
+    /// of order m whose middle is node i (even m), or the edge from node i to i+1 (odd m). None are the report's
+    /// program, and quicker. [`Kernel`] has them all in one row.
+    pub higher: Vec<Profile>,
 }
 
 impl Material {
@@ -34,28 +41,49 @@ impl Material {
             tether: Profile::Uniform(tether),
             tension: Profile::Uniform(tension),
             rigidity: Profile::Uniform(rigidity),
+            higher: Vec::new(),
         }
+    }
+
+    /// The same with the weights of the orders 3, 4 and on.
+    #[must_use]
+    pub fn with_higher(mut self, weights: Vec<Profile>) -> Self {
+        self.higher = weights;
+        self
+    }
+
+    /// The order p: 2, or that of the last weight above.
+    #[must_use]
+    pub const fn order(&self) -> usize {
+        2 + self.higher.len()
     }
 
     /// Refuses densities that do not fit `n` nodes, are negative, infinite or not a number.
     ///
     /// # Errors
     ///
-    /// [`ElasticError::WrongLength`] or [`ElasticError::BadParameter`], with the name of the density.
+    /// [`ElasticError::WrongLength`] or [`ElasticError::BadParameter`], with the name of the density;
+    /// [`ElasticError::BadOrder`] above order [`Kernel::HIGHEST`].
     pub fn validate(&self, n: usize) -> Result<(), ElasticError> {
+        if self.order() > Kernel::HIGHEST {
+            return Err(ElasticError::BadOrder {
+                highest: Kernel::HIGHEST,
+                weights: self.order() + 1,
+            });
+        }
         for (name, profile) in self.densities() {
             profile.validate(name, n, Bound::AtLeast(0.0))?;
         }
         Ok(())
     }
 
-    /// Whether all three are the same everywhere.
+    /// Whether all are the same everywhere.
     #[must_use]
-    pub const fn is_uniform(&self) -> bool {
-        self.tether.is_uniform() && self.tension.is_uniform() && self.rigidity.is_uniform()
+    pub fn is_uniform(&self) -> bool {
+        self.densities().all(|(_, profile)| profile.is_uniform())
     }
 
-    /// ω₀, ω₁, ω₂ where all three are the same everywhere.
+    /// ω₀, ω₁, ω₂ where these three are the same everywhere.
     pub(crate) const fn uniform_densities(&self) -> Option<[f64; 3]> {
         match (&self.tether, &self.tension, &self.rigidity) {
             (Profile::Uniform(w0), Profile::Uniform(w1), Profile::Uniform(w2)) => {
@@ -67,6 +95,8 @@ impl Material {
 
     /// A corner at node `i` of `n`: no rigidity there, so a kink costs nothing.
     ///
+    /// Of the orders above the second those differences weigh nothing that have the node inside.
+    ///
     /// Report §3.4.1: ω₂(s₀) = 0 permits a tangent discontinuity.
     ///
     /// # Errors
@@ -77,13 +107,15 @@ impl Material {
         has_node(i, n)?;
         Ok(Self {
             rigidity: self.rigidity.with(i, n, 0.0),
+            higher: self.higher_without(i, 0, n),
             ..self.clone()
         })
     }
 
     /// A break after node `i` of `n`: nothing holds its two sides together, so a jump costs nothing.
     ///
-    /// The edge from i to i+1 loses its tension, and the two bends that reach over it their rigidity.
+    /// The edge from i to i+1 loses its tension, the two bends that reach over it their rigidity, and so do the
+    /// differences of higher orders.
     /// In a closed curve node 0 follows the last; in an open one a break after the last node frees an
     /// anchored tail only in part, and is better said by [`End::Free`](crate::End::Free).
     ///
@@ -100,15 +132,30 @@ impl Material {
             tether: self.tether.clone(),
             tension: self.tension.with(i, n, 0.0),
             rigidity: self.rigidity.with(i, n, 0.0).with((i + 1) % n, n, 0.0),
+            higher: self.higher_without(i, 1, n),
         })
     }
 
-    fn densities(&self) -> [(&'static str, &Profile); 3] {
-        [
+    /// ω₃ … ωₚ without the differences that reach over node `i`, or with `beyond` 1 over the edge after it.
+    fn higher_without(&self, i: usize, beyond: usize, n: usize) -> Vec<Profile> {
+        let each = (3..).zip(&self.higher);
+        each.map(|(m, profile)| {
+            // by the last node of each; its middle says which weight it takes
+            (i + 1..i + m + beyond).fold(profile.clone(), |profile, last| {
+                profile.with((last + m * n - m + m / 2) % n, n, 0.0)
+            })
+        })
+        .collect()
+    }
+
+    fn densities(&self) -> impl Iterator<Item = (&'static str, &Profile)> {
+        let lower = [
             ("tether", &self.tether),
             ("tension", &self.tension),
             ("rigidity", &self.rigidity),
-        ]
+        ];
+        let higher = NAMES.into_iter().skip(3).zip(&self.higher);
+        lower.into_iter().chain(higher)
     }
 }
 

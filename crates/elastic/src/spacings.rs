@@ -173,6 +173,7 @@ impl Spacings {
             tether: 0.5 * tether.sum::<f64>(),
             tension: 0.5 * tension.sum::<f64>(),
             rigidity: 0.5 * rigidity.sum::<f64>(),
+            higher: 0.0,
         }
     }
 
@@ -187,10 +188,14 @@ impl Spacings {
     ///
     /// # Errors
     ///
-    /// A material that does not fit or is not sound, and an S that is not finite.
+    /// A material that does not fit, is not sound or has an order above 2, and an S that is not finite.
     pub fn stiffness(&self, material: &Material) -> Result<Pentadiagonal, ElasticError> {
         let n = self.shares.len();
         material.validate(n)?;
+        if material.order() > 2 {
+            let order = material.order();
+            return Err(ElasticError::OrderOfSpacings { order });
+        }
         let mut s = Pentadiagonal::new(n, self.topology.is_closed())?;
         let tether: Vec<f64> = (0..n)
             .map(|i| material.tether.at(i) * self.shares[i])

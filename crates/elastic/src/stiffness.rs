@@ -1,25 +1,26 @@
 //! The stiffness matrix K, assembled from differences.
 //!
 //! ```text
-//! K = ω₀ I + D₁ᵀ ω₁ D₁ / h² + D₂ᵀ ω₂ D₂ / h⁴
+//! K = ω₀ I + D₁ᵀ ω₁ D₁ / h² + D₂ᵀ ω₂ D₂ / h⁴ + …
 //! ```
 //!
-//! with one row of D₁ for each edge that exists and one row of D₂ for each bend. Whatever the ends and
+//! with one row of D₁ for each edge that exists, one row of D₂ for each bend, and so on to the order of the material. Whatever the ends and
 //! the densities, K is then symmetric and never negative, and the force −K e is minus the gradient of
 //! the energy per arc length. K does not know of pinned and clamped nodes: whoever holds them takes their rows
 //! and columns out.
 
-use crate::{Bound, ElasticError, Material, Profile, Topology};
-use banded::Pentadiagonal;
+use crate::{Bound, ElasticError, Kernel, Material, Profile, Topology};
+use banded::{Band, Pentadiagonal};
 use std::ops::RangeInclusive;
 
 /// The stiffness matrix of a curve: `−K e` is the elastic force on its nodes.
 ///
 /// ```text
-/// K = ω₀ I + D₁ᵀ ω₁ D₁ / h² + D₂ᵀ ω₂ D₂ / h⁴
+/// K = ω₀ I + D₁ᵀ ω₁ D₁ / h² + D₂ᵀ ω₂ D₂ / h⁴ + … + Dₚᵀ ωₚ Dₚ / h²ᵖ
 /// ```
 ///
-/// `n` × `n`, pentadiagonal, cyclic if the curve is closed. Per arc length: M T⁻². O(n).
+/// `n` × `n`, p diagonals on either side (two at least: pentadiagonal), cyclic if the curve is closed. Per arc length:
+/// M T⁻². O(n p²).
 ///
 /// Inside, a row of uniform densities reads `ω₂/h⁴, −ω₁/h² − 4ω₂/h⁴, ω₀ + 2ω₁/h² + 6ω₂/h⁴, …`, report
 /// Eq. 3.2. With both ends [anchored](crate::End::Anchored) it is the matrix of the report's program
@@ -29,15 +30,19 @@ use std::ops::RangeInclusive;
 /// # Errors
 ///
 /// Too few nodes, densities that do not fit or are not sound, a spacing that is 0, negative, not a number or
-/// out of all measure, or a K that is not finite.
+/// out of all measure, or a K that is not finite. Above order 2, as [`Kernel::stiffness`].
 pub fn stiffness(
     topology: Topology,
     material: &Material,
     spacing: f64,
     n: usize,
-) -> Result<Pentadiagonal, ElasticError> {
+) -> Result<Band, ElasticError> {
     topology.check_count(n)?;
     material.validate(n)?;
+    if material.order() > 2 {
+        let k = Kernel::from(material).stiffness(topology, spacing, n)?;
+        return Ok(k.into());
+    }
     let (per_h2, per_h4) = inverse_powers(spacing)?;
     let mut k = Pentadiagonal::new(n, topology.is_closed())?;
     k.add_diagonal(&material.tether.to_vec(n));
@@ -58,7 +63,7 @@ pub fn stiffness(
         );
     }
     if k.norm().is_finite() {
-        Ok(k)
+        Ok(k.into())
     } else {
         Err(ElasticError::TooStiff { spacing })
     }

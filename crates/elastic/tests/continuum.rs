@@ -76,6 +76,7 @@ fn the_force_of_profiles_converges_to_equation_2_10_with_order_one() {
             tether: Profile::Uniform(0.7),
             tension: along(&|x| 2.0 + x.sin()),
             rigidity: along(&|x| 0.3 + 0.1 * x.cos()),
+            higher: Vec::new(),
         };
         error(n, &material, exact)
     };

@@ -35,6 +35,7 @@ fn rough(n: usize) -> (Material, Profile) {
         tether: along(0.7),
         tension: along(1.3),
         rigidity: along(2.1),
+        higher: vec![along(0.4), along(0.2)],
     };
     let mass = (0..n)
         .map(|i| 0.2 + (i * i) as f64 % 1.7)

@@ -51,6 +51,7 @@ fn any_case() -> impl Strategy<Value = (Topology, Vec<f64>, Material, Vec<DVec2>
         )
             .prop_map(move |(edges, (tether, tension, rigidity), e)| {
                 let material = Material {
+                    higher: Vec::new(),
                     tether,
                     tension,
                     rigidity,

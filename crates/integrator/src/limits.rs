@@ -5,7 +5,7 @@
 //! with both in the middle of the band, "stable" is "a banded matrix is positive definite", and
 //! bisection finds where that ends.
 
-use banded::{Dense, Operator, Pentadiagonal};
+use banded::{Band, Dense, Operator};
 
 use crate::{Mode, Scheme, System};
 
@@ -145,11 +145,11 @@ pub(crate) fn positive(a: &Operator, scale: f64, diagonal: &[f64]) -> bool {
 /// Whether `band + scale · U S Uᵀ` is positive definite, given that `band` is.
 ///
 /// With `Y = Uᵀ band⁻¹ U = L Lᵀ`, that is whether `I + scale · Lᵀ S L` is.
-fn keeps_sign(a: &Operator, scale: f64, band: &Pentadiagonal) -> bool {
+fn keeps_sign(a: &Operator, scale: f64, band: &Band) -> bool {
     let columns = a.columns();
     let k = columns.len();
     let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
-    let Ok(factor) = banded::Factor::new(band) else {
+    let Ok(factor) = band.factor() else {
         return false;
     };
     let solved: Vec<Vec<f64>> = columns

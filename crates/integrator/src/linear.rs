@@ -3,7 +3,7 @@
 //! On an edge the image pulls a node back like a stiff spring along the normal. An explicit force
 //! limits the step there; here the spring is part of the matrix, with x and y of each node coupled.
 
-use banded::{Banded, BandedFactor, Dense, Operator};
+use banded::{Band, Banded, BandedFactor, Dense, Operator};
 use glam::{DMat2, DVec2};
 
 use crate::contact::{Contacts, Moment, Pace};
@@ -19,7 +19,7 @@ use crate::{Fault, SchemeError, State, Stepper, System};
 ///
 /// `G` is the part of ∂f/∂x that pulls back: its symmetric part without what is above zero, so that the
 /// matrix is positive definite at any step; what pushes away is left explicit. Where the system
-/// knows no slope, or a constant force, it is the scheme named imex. Factors a band twice as wide each step. O(n).
+/// knows no slope, or a constant force, it is the scheme named imex. Factors a band twice as wide each step. O(n p²).
 ///
 /// [baraff98].
 #[derive(Debug)]
@@ -29,9 +29,9 @@ pub(crate) struct LinearlyImplicit {
     solver: Solver,
     correction: Option<Correction>,
     /// The matrix with the slopes in it, x and y of each node in turn.
-    wide: Banded<4>,
+    wide: Banded,
     /// Its factor, made anew in the same memory each step.
-    factor: Option<BandedFactor<4>>,
+    factor: Option<BandedFactor>,
     slope: Vec<DMat2>,
     force: Vec<DVec2>,
     external: Vec<DVec2>,
@@ -59,7 +59,7 @@ impl LinearlyImplicit {
             clock: Clock::new(state, dt),
             solver: Solver::new(Self::NAME, Mass::Optional, system, weights)?,
             correction: Correction::new(system.stiffness())?,
-            wide: Banded::new(2 * n, system.stiffness().band().is_cyclic())?,
+            wide: coupled(system.stiffness().band())?,
             factor: None,
             slope: vec![DMat2::ZERO; n],
             force: zeros(),
@@ -76,21 +76,16 @@ impl LinearlyImplicit {
         let band = self.solver.matrix().band();
         let n = self.force.len();
         let held = system.held();
-        let (diagonal, first, second) = (band.diagonal(), band.first(), band.second());
+        if self.wide.half_width() != 2 * band.half_width() {
+            self.wide = coupled(band)?;
+        }
         for i in 0..n {
             let pull = if held[i] {
                 DMat2::ZERO
             } else {
                 pulling(self.slope[i])
             };
-            let (own, near, far) = (diagonal[i], first[i], second[i]);
-            let between = -pull.x_axis.y;
-            // x and y of this node, then of the next, then of the one after
-            let row = 2 * i;
-            self.wide
-                .set_row(row, own - pull.x_axis.x, [between, near, 0.0, far]);
-            self.wide
-                .set_row(row + 1, own - pull.y_axis.y, [0.0, near, 0.0, far]);
+            set_rows(&mut self.wide, band, i, pull);
         }
         match &mut self.factor {
             Some(factor) => factor.renew(&self.wide)?,
@@ -160,6 +155,32 @@ impl Stepper for LinearlyImplicit {
     fn resume(&mut self, _system: &mut dyn System, state: &State) {
         self.clock.restart(state);
     }
+}
+
+/// Room for the band with x and y of each node coupled.
+fn coupled(band: &Band) -> Result<Banded, SchemeError> {
+    let (n, width) = (band.len(), band.half_width());
+    Ok(Banded::new(2 * n, 2 * width, band.is_cyclic())?)
+}
+
+/// The rows of x and y of node `i`: x and y of this node, then of the next, then of the one after.
+fn set_rows(wide: &mut Banded, band: &Band, i: usize, pull: DMat2) {
+    let (own, between, row) = (band.diagonal()[i], -pull.x_axis.y, 2 * i);
+    let (x, y) = (own - pull.x_axis.x, own - pull.y_axis.y);
+    if let Band::Narrow(band) = band {
+        let (near, far) = (band.first()[i], band.second()[i]);
+        wide.set_row(row, x, &[between, near, 0.0, far]);
+        wide.set_row(row + 1, y, &[0.0, near, 0.0, far]);
+        return;
+    }
+    let mut beside = [0.0; Banded::WIDEST];
+    let beside = &mut beside[..wide.half_width()];
+    for (k, pair) in beside.chunks_exact_mut(2).enumerate() {
+        pair[1] = band.beside(i, k + 1);
+    }
+    wide.set_row(row + 1, y, beside);
+    beside[0] = between;
+    wide.set_row(row, x, beside);
 }
 
 /// The symmetric part of a slope without its positive eigenvalues.
@@ -232,7 +253,7 @@ impl Correction {
     }
 
     /// From B⁻¹ b to (B + U S Uᵀ)⁻¹ b.
-    fn apply(&self, factor: &BandedFactor<4>, x: &mut [f64]) -> Result<(), SchemeError> {
+    fn apply(&self, factor: &BandedFactor, x: &mut [f64]) -> Result<(), SchemeError> {
         let k = self.columns.len();
         let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
         let mut solved = self.columns.clone();

@@ -49,7 +49,7 @@ impl Scene {
             crowd = crowd.without_account();
         }
         let mut record = Record::of(self);
-        record.terms = Energies::names_with(Crowd::FORCES.into_iter());
+        record.terms = Energies::names_with(crowd.orders(), Crowd::FORCES.into_iter());
         record
             .frames
             .push(frame(&mut crowd, keep.velocities, keep.energies));

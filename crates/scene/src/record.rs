@@ -179,7 +179,7 @@ impl Record {
             scheme: scene.plan.scheme.to_string(),
             dt: scene.plan.dt,
             closed: matches!(scene.snake.body().topology, elastic::Topology::Closed),
-            terms: Energies::names(scene.snake.world()),
+            terms: Energies::names(&scene.snake),
             frames: Vec::new(),
             events: Vec::new(),
             outcome: Outcome::Finished { step: 0 },

@@ -310,12 +310,6 @@ fn the_third_order_closes_the_account_and_lowers_the_step_as_theory_says() {
             "higher = [1.0, 1.0, 1.0, 1.0, 1.0]",
             "orders 0 to at most 6",
         ),
-        ("topology", "frame = \"turning\"\ntopology", "does not turn"),
-        (
-            "[material]",
-            "[upkeep]\nstretch = 2.0\n[material]",
-            "without [upkeep]",
-        ),
     ] {
         let message = refused("third-order", &[(from, to)]);
         assert!(
@@ -323,6 +317,68 @@ fn the_third_order_closes_the_account_and_lowers_the_step_as_theory_says() {
             "{message}"
         );
     }
+    let idle = [
+        ("higher = [10000.0]", ""),
+        (
+            "[densities]",
+            "[schedule]\nhigher = [[0.0, 1.0]]\n[densities]",
+        ),
+    ];
+    assert!(refused("third-order", &idle).starts_with("schedule.higher: there is nothing"));
+}
+
+#[test]
+fn orders_above_the_second_go_with_all_that_a_body_does() {
+    let base = [
+        ("[record]", "[record]\nenergies = true"),
+        ("time = 200.0\nrest = {}", "time = 5.0"),
+    ];
+    let strays = |more: &[(&str, &str)]| {
+        let mut scene = changed("third-order", &[&base, more].concat()).unwrap();
+        let record = run(&mut scene);
+        let kept = |k: usize| record.frames[k].energies.clone().unwrap();
+        let (first, last) = (kept(0), kept(record.frames.len() - 1));
+        assert_eq!(last.values().len(), record.terms.len());
+        assert!(last.higher.unwrap() > 0.0 && record.terms[4] == "higher");
+        let size: f64 = last.values().iter().map(|value| value.abs()).sum();
+        (last.total() - first.total()).abs() / size
+    };
+    assert!(strays(&[]) < 1e-12, "{}", strays(&[]));
+    // what the leapfrog does is known; of the others the work is summed by the square of the step
+    for (allowed, from, to) in [
+        (1e-12, "topology", "frame = \"turning\"\ntopology"),
+        (1e-12, "higher = [10000.0]", "higher = [0.0, 1000.0]"),
+        (1e-12, "damping = 1.0", "damping = 1.0\ninternal = 1e-4"),
+        (
+            1e-12,
+            "[densities]",
+            "[schedule]\nhigher = [[0.0, 1.0], [5.0, 0.5]]\n[densities]",
+        ),
+        // beyond the leapfrog's limit of 0.07
+        (3e-3, "dt = 0.01", "dt = 0.1\nscheme = \"newmark\""),
+        (3e-2, "dt = 0.01", "dt = 0.1\nscheme = \"imex\""),
+    ] {
+        let found = strays(&[(from, to)]);
+        assert!(found < allowed, "{to}: {found:e}");
+    }
+    // drawn out to 1.6 times its rest shape, which goes with the nodes that are put in
+    let drawn = [
+        (
+            "radius = 30.0 } }",
+            "radius = 45.0 } }\nrest = { circle = { center = [49.0, 47.0], radius = 28.0 } }",
+        ),
+        ("[material]", "[upkeep]\nstretch = 1.5\n[material]"),
+        ("dt = 0.01", "dt = 0.01\nscheme = \"newmark\""),
+    ];
+    let mut scene = changed("third-order", &[&base[..], &drawn].concat()).unwrap();
+    let record = run(&mut scene);
+    let kept = |k: usize| record.frames[k].energies.clone().unwrap();
+    let (first, last) = (kept(0), kept(record.frames.len() - 1));
+    let put_in = last.upkeep.abs();
+    assert!(record.frames[record.frames.len() - 1].nodes.len() > 60);
+    assert!((last.total() - first.total()).abs() < 1e-3 * first.total());
+    assert!(put_in > 0.0 && put_in < 1e-2 * first.total());
+    assert!(!record.events.is_empty());
 }
 
 #[test]

@@ -56,7 +56,7 @@ impl Snake {
     fn own_energies(&mut self, t: f64, x: &[DVec2], v: &[DVec2]) -> Energies {
         let h = self.body.spacing;
         let factors = self.body.schedules.at(t);
-        let [tether, tension, rigidity, mass, _] = factors;
+        let [tether, tension, rigidity, mass, _, higher] = factors;
         let turning = self.turning.as_ref();
         let rotation = turning.map(|turning| turning.rotation_at(x, factors));
         let mut e = std::mem::take(&mut self.deformation);
@@ -67,6 +67,7 @@ impl Snake {
             tether: tether * elastic.tether,
             tension: tension * elastic.tension,
             rigidity: rigidity * elastic.rigidity,
+            higher: (body.material.order() > 2).then_some(higher * elastic.higher),
             ..Energies::default()
         };
         for (i, (&x, &v)) in x.iter().zip(v).enumerate() {

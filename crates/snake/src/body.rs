@@ -69,7 +69,7 @@ pub struct Body {
     pub rest: Vec<DVec2>,
     /// Spacing `h` of the nodes at rest. L.
     pub spacing: f64,
-    /// ω₀, ω₁, ω₂ along the curve.
+    /// ω₀, ω₁, ω₂ along the curve, and the orders above, if any.
     pub material: Material,
     /// μ: mass density. M. Above 0 for every scheme with inertia.
     pub mass: Profile,
@@ -80,7 +80,7 @@ pub struct Body {
     pub internal: f64,
     /// The rules of the body frame.
     pub frame: Frame,
-    /// Factors of the five parameters as functions of time.
+    /// Factors of the parameters as functions of time.
     pub schedules: Schedules,
 }
 

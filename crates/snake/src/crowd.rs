@@ -143,6 +143,8 @@ pub struct Crowd {
     /// Sub-steps of steppers that are gone.
     made: Option<Summary>,
     books: Books,
+    /// Whether any member has or had elastic terms above the second order.
+    orders: bool,
 }
 
 impl Crowd {
@@ -176,6 +178,7 @@ impl Crowd {
             cut: None,
             made: None,
             books: Books::default(),
+            orders: false,
         };
         crowd.meetings.count(true);
         upkeep.validate()?;
@@ -214,6 +217,7 @@ impl Crowd {
             .and_then(|ledger| ledger.under(self.timing.scheme, self.timing.start, &mut snake))
             .map_err(|fault| CrowdError::Fault { member, fault })?;
         let spacing = snake.body().spacing;
+        let orders = self.orders || snake.body().material.order() > 2;
         self.members.push(Member {
             id: member,
             snake,
@@ -229,7 +233,15 @@ impl Crowd {
         if cuts > 1 {
             self.log(member, EventKind::Cut { cuts });
         }
+        self.orders = orders;
         Ok(())
+    }
+
+    /// Whether any member has or had elastic terms above the second order, which have a column of their own in
+    /// [`Energies::names_with`].
+    #[must_use]
+    pub const fn orders(&self) -> bool {
+        self.orders
     }
 
     /// The snakes that are there.

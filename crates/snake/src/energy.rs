@@ -7,7 +7,7 @@
 //! the run began. It books too what damping and contacts have taken and what changing parameters
 //! and a hand have put in, so that the sum of everything stays what it was.
 
-use crate::World;
+use crate::Snake;
 
 /// Energy of every term at one moment. M L³ T⁻².
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -20,6 +20,8 @@ pub struct Energies {
     pub tension: f64,
     /// `½ h Σ ω₂ |D₂ e|²`.
     pub rigidity: f64,
+    /// `½ h Σ ωₘ |Dₘ e|²` over the orders m above the second; none for a body without them.
+    pub higher: Option<f64>,
     /// Of each force of the world, in its order: its potential, or minus its work since the run began.
     pub forces: Vec<f64>,
     /// `½ h Σ k d²` over the nodes behind penalty walls.
@@ -44,14 +46,15 @@ pub struct Energies {
 }
 
 impl Energies {
-    /// What each of [`Energies::values`] is called in that world.
+    /// What each of [`Energies::values`] is called for that snake.
     #[must_use]
-    pub fn names(world: &World) -> Vec<String> {
-        Self::names_with(world.names())
+    pub fn names(snake: &Snake) -> Vec<String> {
+        let orders = snake.body().material.order() > 2;
+        Self::names_with(orders, snake.world().names())
     }
 
-    /// The same with these names for the forces.
-    pub fn names_with<'a>(forces: impl Iterator<Item = &'a str>) -> Vec<String> {
+    /// The same with these names for the forces; `orders`: whether there are elastic terms above the second order.
+    pub fn names_with<'a>(orders: bool, forces: impl Iterator<Item = &'a str>) -> Vec<String> {
         let first = ["kinetic", "tether", "tension", "rigidity"];
         let last = [
             "wall",
@@ -65,6 +68,7 @@ impl Energies {
         ];
         first
             .into_iter()
+            .chain(orders.then_some("higher"))
             .chain(forces)
             .chain(last)
             .map(str::to_owned)
@@ -75,6 +79,7 @@ impl Energies {
     #[must_use]
     pub fn values(&self) -> Vec<f64> {
         let mut values = vec![self.kinetic, self.tether, self.tension, self.rigidity];
+        values.extend(self.higher);
         values.extend(&self.forces);
         values.extend([self.wall, self.damping, self.contact]);
         values.extend([self.frame, self.scheme, self.parameters]);
@@ -82,10 +87,10 @@ impl Energies {
         values
     }
 
-    /// The three elastic terms together: ξ of report Eq. 2.5.
+    /// The elastic terms together: ξ of report Eq. 2.5.
     #[must_use]
     pub fn elastic(&self) -> f64 {
-        self.tether + self.tension + self.rigidity
+        self.tether + self.tension + self.rigidity + self.higher.unwrap_or(0.0)
     }
 
     /// What could still move: everything but what is booked as lost or put in.

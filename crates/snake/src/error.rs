@@ -30,12 +30,6 @@ pub enum SnakeError {
         /// What would do.
         needed: &'static str,
     },
-    /// Something that elastic terms above the second order cannot have.
-    #[error("elastic terms above the second order need {needed}")]
-    NotOfHigherOrder {
-        /// What would do.
-        needed: &'static str,
-    },
     /// A snake whose ends cannot grow.
     #[error("ends that grow need {needed}")]
     CannotGrow {

@@ -71,8 +71,8 @@ pub use damping::Damping;
 pub use energy::Energies;
 pub use error::SnakeError;
 pub use force::{
-    Acting, Curve, Force, Freeze, Gravity, Higher, ImageForce, Path, Pressure, Pull, RegionForce,
-    Repulsor, Sampling, SignedEdgeForce, Spring, Turned,
+    Acting, Curve, Force, Freeze, Gravity, ImageForce, Path, Pressure, Pull, RegionForce, Repulsor,
+    Sampling, SignedEdgeForce, Spring, Turned,
 };
 pub use ledger::Ledger;
 pub use pace::Pace;

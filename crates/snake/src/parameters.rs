@@ -1,20 +1,24 @@
 //! From a body and the factors of its schedules to what the schemes ask for.
 
-use banded::{Operator, Pentadiagonal};
+use banded::Operator;
 use elastic::{End, Material, Topology};
 
+use crate::schedule::Factors;
 use crate::{Body, Center, SnakeError};
 
-/// The parameters of `body` times the five factors.
+/// The parameters of `body` times the six factors.
 pub(crate) fn scaled(
     body: &Body,
-    [tether, tension, rigidity, mass, damping]: [f64; 5],
+    [tether, tension, rigidity, mass, damping, higher]: Factors,
 ) -> Parameters {
     let n = body.len();
     let material = Material {
         tether: body.material.tether.scaled(tether),
         tension: body.material.tension.scaled(tension),
         rigidity: body.material.rigidity.scaled(rigidity),
+        higher: (body.material.higher.iter())
+            .map(|weight| weight.scaled(higher))
+            .collect(),
     };
     (
         material,
@@ -56,7 +60,7 @@ pub(crate) fn operator(
     held: &[bool],
 ) -> Result<Operator, SnakeError> {
     let n = body.len();
-    let band: Pentadiagonal = elastic::stiffness(body.topology, material, body.spacing, n)?;
+    let band = elastic::stiffness(body.topology, material, body.spacing, n)?;
     let mut row_sums = vec![0.0; n];
     band.multiply_scalars_into(&vec![1.0; n], &mut row_sums);
     let scale = band.diagonal().iter().fold(0.0_f64, |a, d| a.max(d.abs()));

@@ -88,7 +88,12 @@ pub struct Schedules {
     pub mass: Option<Schedule>,
     /// Factor of γ.
     pub damping: Option<Schedule>,
+    /// Factor of ω₃ and all above it.
+    pub higher: Option<Schedule>,
 }
+
+/// A factor for each of them, in the order tether, tension, rigidity, mass, damping, higher.
+pub(crate) type Factors = [f64; 6];
 
 impl Schedules {
     /// Whether nothing changes with time.
@@ -97,15 +102,15 @@ impl Schedules {
         *self == Self::default()
     }
 
-    /// The five factors at time `t`, in the order tether, tension, rigidity, mass, damping.
+    /// The factors at time `t`, in the order tether, tension, rigidity, mass, damping, higher.
     #[must_use]
-    pub fn at(&self, t: f64) -> [f64; 5] {
+    pub fn at(&self, t: f64) -> [f64; 6] {
         self.all().map(|schedule| schedule.map_or(1.0, |s| s.at(t)))
     }
 
-    /// The five largest factors, in the same order.
+    /// The largest factors, in the same order.
     #[must_use]
-    pub fn largest(&self) -> [f64; 5] {
+    pub fn largest(&self) -> [f64; 6] {
         self.all()
             .map(|schedule| schedule.map_or(1.0, Schedule::largest))
     }
@@ -117,13 +122,14 @@ impl Schedules {
         ends.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    fn all(&self) -> [Option<&Schedule>; 5] {
+    fn all(&self) -> [Option<&Schedule>; 6] {
         [
             &self.tether,
             &self.tension,
             &self.rigidity,
             &self.mass,
             &self.damping,
+            &self.higher,
         ]
         .map(Option::as_ref)
     }

@@ -9,6 +9,7 @@ use crate::account::Account;
 use crate::damping::Renewal;
 use crate::inner::Inner;
 use crate::parameters::{operator, pushes, scaled};
+use crate::schedule::Factors;
 use crate::turn::TurningRest;
 use crate::{Acting, Body, Center, Curve, SnakeError, Wall, WallLaw, World};
 
@@ -29,7 +30,7 @@ pub struct Snake {
     pub(crate) material: Material,
     pub(crate) mass: Vec<f64>,
     pub(crate) damping: Vec<f64>,
-    pub(crate) factors: [f64; 5],
+    pub(crate) factors: Factors,
     pub(crate) stiffness: Operator,
     /// The rest shape that turns, if it does.
     pub(crate) turning: Option<TurningRest>,

@@ -72,7 +72,8 @@ impl Tips {
             &body.damping,
         ];
         if all
-            .iter()
+            .into_iter()
+            .chain(&m.higher)
             .any(|profile| !matches!(profile, Profile::Uniform(_)))
         {
             return refuse("parameters that are the same all along");

@@ -6,6 +6,7 @@ use std::str::FromStr;
 use elastic::{Material, Profile};
 use glam::DVec2;
 
+use crate::schedule::Factors;
 use crate::{Body, SnakeError};
 
 /// Whether the rest shape turns with the body (report §5.2).
@@ -65,9 +66,9 @@ const NOTHING: f64 = 1e-13;
 /// A rest shape that turns, and what it pulls with.
 #[derive(Debug, Clone)]
 pub(crate) struct TurningRest {
-    /// K r of the tether, the tension and the rigidity alone, the reaction of the frame taken out: what
-    /// the angle is asked of. Their sums are zero.
-    parts: [Vec<DVec2>; 3],
+    /// K r of the tether, the tension, the rigidity and, if any, the orders above alone, the reaction of the frame taken
+    /// out: what the angle is asked of. Their sums are zero.
+    parts: Vec<Vec<DVec2>>,
     /// K r as the frame's rule has it, at the present factors.
     push: Vec<DVec2>,
     pull: Vec<DVec2>,
@@ -75,39 +76,44 @@ pub(crate) struct TurningRest {
 
 impl TurningRest {
     /// None for a rest shape that keeps its direction.
-    pub(crate) fn new(body: &Body, weights: &[f64], factors: [f64; 5]) -> Option<Self> {
+    pub(crate) fn new(body: &Body, weights: &[f64], factors: Factors) -> Option<Self> {
         if body.frame.turn == Turn::None {
             return None;
         }
         let none = || Profile::Uniform(0.0);
+        let own = &body.material;
         let (tether, tension, rigidity) = (
-            body.material.tether.clone(),
-            body.material.tension.clone(),
-            body.material.rigidity.clone(),
+            own.tether.clone(),
+            own.tension.clone(),
+            own.rigidity.clone(),
         );
-        let alone = |tether, tension, rigidity| {
+        let alone = |tether, tension, rigidity, higher| {
             let material = Material {
                 tether,
                 tension,
                 rigidity,
+                higher,
             };
             pull(body, &material, weights)
         };
-        let parts = [
-            alone(tether, none(), none()),
-            alone(none(), tension, none()),
-            alone(none(), none(), rigidity),
+        let mut parts = vec![
+            alone(tether, none(), none(), Vec::new()),
+            alone(none(), tension, none(), Vec::new()),
+            alone(none(), none(), rigidity, Vec::new()),
         ];
+        if !own.higher.is_empty() {
+            parts.push(alone(none(), none(), none(), own.higher.clone()));
+        }
         let zeros = || vec![DVec2::ZERO; body.len()];
         let mut turning = Self {
-            parts: parts.clone().map(|(fit, _)| fit),
+            parts: parts.iter().map(|(fit, _)| fit.clone()).collect(),
             push: zeros(),
             pull: zeros(),
         };
         for i in 0..body.len() {
-            for (j, (fit, raw)) in parts.iter().enumerate() {
-                turning.pull[i] += factors[j] * fit[i];
-                turning.push[i] += factors[j] * if body.frame.reaction { fit[i] } else { raw[i] };
+            for ((fit, raw), factor) in parts.iter().zip(elastic_ones(factors)) {
+                turning.pull[i] += factor * fit[i];
+                turning.push[i] += factor * if body.frame.reaction { fit[i] } else { raw[i] };
             }
         }
         Some(turning)
@@ -118,12 +124,12 @@ impl TurningRest {
         rotation(&self.pull, x)
     }
 
-    /// The same at other factors of the three densities.
-    pub(crate) fn rotation_at(&self, x: &[DVec2], factors: [f64; 5]) -> DVec2 {
+    /// The same at other factors of the densities.
+    pub(crate) fn rotation_at(&self, x: &[DVec2], factors: Factors) -> DVec2 {
         let mut pull = vec![DVec2::ZERO; x.len()];
-        for (factor, part) in factors.iter().zip(&self.parts) {
+        for (factor, part) in elastic_ones(factors).into_iter().zip(&self.parts) {
             for (pull, part) in pull.iter_mut().zip(part) {
-                *pull += *factor * *part;
+                *pull += factor * *part;
             }
         }
         rotation(&pull, x)
@@ -136,6 +142,11 @@ impl TurningRest {
             *f += rotation.rotate(push) - push;
         }
     }
+}
+
+/// The factors of the elastic densities, in the order of the parts.
+const fn elastic_ones([tether, tension, rigidity, _, _, higher]: Factors) -> [f64; 4] {
+    [tether, tension, rigidity, higher]
 }
 
 /// K r with the frame's reaction taken out, and as it is.

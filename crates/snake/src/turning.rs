@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use banded::{Operator, Pentadiagonal};
+use banded::{Band, Operator};
 use elastic::Bound;
 use glam::DVec2;
 use integrator::{Fault, State, System};
@@ -226,18 +226,22 @@ fn leave(n: usize, x: &[DVec2], v: &[DVec2], space: &mut State) {
 }
 
 /// K for the nodes and nothing for the other two. The corners of a closed band are columns of low rank, for
-/// the two nodes more stand where it would wrap round.
+/// the two nodes more stand where it would wrap round; above order 2, where those would be many, the band is wider by two.
 fn stiffness(snake: &Snake) -> Result<Operator, SnakeError> {
     let (body, n) = (snake.body(), snake.len());
     let k = elastic::stiffness(body.topology, &body.material, body.spacing, n)?;
     let refused = |error: banded::BandedError| SnakeError::Elastic(error.into());
-    let mut band = Pentadiagonal::new(n + 2, false).map_err(refused)?;
+    let (p, closed) = (k.half_width(), body.topology.is_closed());
+    let round = closed && p > 2;
+    let reach = if round { p + 2 } else { p };
+    let mut band = Band::new(n + 2, reach, round).map_err(refused)?;
     for i in 0..n {
-        for j in i..n.min(i + 3) {
-            band.add(i, j, k.entry(i, j));
+        band.add(i, i, k.diagonal()[i]);
+        for reach in (1..=p).filter(|reach| round || i + reach < n) {
+            band.add(i, (i + reach) % n, k.beside(i, reach));
         }
     }
-    if !body.topology.is_closed() {
+    if !closed || round {
         return Ok(Operator::from(band));
     }
     let unit = |i: usize| (0..n + 2).map(|j| f64::from(u8::from(i == j))).collect();

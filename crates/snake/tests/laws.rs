@@ -31,7 +31,12 @@ fn curve(topology: Topology, wave: f64) -> Vec<DVec2> {
 }
 
 fn any_topology() -> impl Strategy<Value = Topology> {
-    let end = prop_oneof![Just(End::Free), Just(End::Anchored), Just(End::Pinned)];
+    let end = prop_oneof![
+        Just(End::Free),
+        Just(End::Anchored),
+        Just(End::Pinned),
+        Just(End::Clamped)
+    ];
     prop_oneof![
         Just(Topology::Closed),
         (end.clone(), end).prop_map(|(head, tail)| Topology::Open { head, tail }),
@@ -52,11 +57,12 @@ prop_compose! {
         tether in any_profile(2.0),
         tension in any_profile(20.0),
         rigidity in any_profile(20.0),
+        higher in prop_oneof![Just(Vec::new()), prop::collection::vec(any_profile(20.0), 1..=2)],
         mass in prop::collection::vec(0.2..3.0, N),
         even in any::<bool>(),
     ) -> Body {
         let mut body = Body::of(&curve(topology, wave), topology, 1.0).unwrap();
-        body.material = Material { tether, tension, rigidity };
+        body.material = Material { tether, tension, rigidity, higher };
         if !even {
             body.mass = Profile::PerNode(mass);
         }
@@ -421,6 +427,7 @@ fn the_step_limit_of_uneven_mass_and_damping_parts_rest_from_blow_up() {
         tether: Profile::Uniform(0.1),
         tension: Profile::PerNode((0..N).map(|i| 1.0 + i as f64).collect()),
         rigidity: Profile::PerNode((0..N).map(|i| 2.0 + (i % 3) as f64).collect()),
+        higher: vec![Profile::Uniform(0.5)],
     };
     body.mass = Profile::PerNode((0..N).map(|i| 0.5 + 0.2 * i as f64).collect());
     body.damping = Profile::PerNode((0..N).map(|i| 0.3 * (i % 4) as f64).collect());

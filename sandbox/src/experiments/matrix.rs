@@ -2,7 +2,7 @@
 
 use crate::draw::{Axis, Color, Corner, Figure, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
-use banded::{Operator, Pentadiagonal};
+use banded::{Band, Operator};
 use elastic::{End, Material, Profile, Topology, rms, stiffness, stiffness_as_printed};
 use glam::DVec2;
 use integrator::problems::Springs;
@@ -84,24 +84,27 @@ pub(crate) const MATRIX: Experiment = Experiment {
     draw,
 };
 
-fn right() -> Result<Pentadiagonal, SandboxError> {
+fn right() -> Result<Band, SandboxError> {
     let [tether, tension, rigidity] = WEIGHTS.map(Profile::Uniform);
     let material = Material {
         tether,
         tension,
         rigidity,
+        higher: Vec::new(),
     };
     stiffness(Topology::open(End::Anchored), &material, 1.0, NODES)
         .map_err(SandboxError::refused(ID))
 }
 
-fn printed() -> Result<Pentadiagonal, SandboxError> {
+fn printed() -> Result<Band, SandboxError> {
     let [w0, w1, w2] = WEIGHTS;
-    stiffness_as_printed(w0, w1, w2, NODES).map_err(SandboxError::refused(ID))
+    stiffness_as_printed(w0, w1, w2, NODES)
+        .map(Band::from)
+        .map_err(SandboxError::refused(ID))
 }
 
 /// The stiffness of the wave that turns by θ from node to node, read off a row in the middle.
-fn symbol(k: &Pentadiagonal, theta: f64) -> f64 {
+fn symbol(k: &Band, theta: f64) -> f64 {
     let row = NODES / 2;
     (row - 2..=row + 2)
         .map(|j| k.entry(row, j) * (theta * (real(j) - real(row))).cos())
@@ -113,7 +116,7 @@ struct Motion {
     last: Vec<DVec2>,
 }
 
-fn motion(k: &Pentadiagonal, dt: f64) -> Result<Motion, SandboxError> {
+fn motion(k: &Band, dt: f64) -> Result<Motion, SandboxError> {
     let mut system = Springs::new(Operator::from(k.clone()), 1.0, DAMPING);
     system.rest = (0..NODES).map(|i| DVec2::new(real(i), 0.0)).collect();
     let bend = |i: usize| (PI * real(i) / real(NODES - 1)).sin();

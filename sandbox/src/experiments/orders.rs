@@ -2,10 +2,10 @@
 
 use crate::draw::{Axis, Color, Corner, Figure, Layer, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
-use elastic::{Material, Topology};
+use elastic::{Material, Profile, Topology};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
-use snake::{Body, Freeze, Higher, Snake, Until, World};
+use snake::{Body, Freeze, Snake, Until, World};
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
@@ -134,16 +134,14 @@ fn run() -> Result<Record, SandboxError> {
         let power = i32::try_from(p).unwrap_or(1);
         let weight = 1.0 / steep(CUT).powi(power);
         let springs = Freeze::new(&noisy, 0..NODES, 1.0).map_err(SandboxError::refused(ID))?;
-        let mut world = World::default().with(springs);
+        let world = World::default().with(springs);
         let body = match p {
             1 => body.with_material(Material::uniform(0.0, weight, 0.0)),
             2 => body.with_material(Material::uniform(0.0, 0.0, weight)),
             _ => {
-                let mut weights = vec![0.0; p - 3];
-                weights.push(weight);
-                world =
-                    world.with(Higher::new(&body, &weights).map_err(SandboxError::refused(ID))?);
-                body
+                let mut weights = vec![Profile::Uniform(0.0); p - 3];
+                weights.push(Profile::Uniform(weight));
+                body.with_material(Material::uniform(0.0, 0.0, 0.0).with_higher(weights))
             }
         };
         let mut snake = Snake::new(body, world).map_err(SandboxError::refused(ID))?;

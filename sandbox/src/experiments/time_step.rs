@@ -115,6 +115,7 @@ fn snake(damping: f64, bend: f64) -> Result<(Springs, State), SandboxError> {
         tether: Profile::Uniform(0.1),
         tension: Profile::Uniform(10.0),
         rigidity: Profile::Uniform(10.0),
+        higher: Vec::new(),
     };
     let k = stiffness(Topology::open(End::Anchored), &material, SPACING, NODES)
         .map_err(SandboxError::refused(ID))?;

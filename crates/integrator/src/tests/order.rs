@@ -153,7 +153,7 @@ fn dormand_and_prince_keep_the_tolerance_and_fill_the_gaps() {
 /// `ẍ + ẋ/(1+t) + 4x/(1+t)² = 1/(1+t)²`, so `x = ¼ + ¾ cos(2 ln(1+t))` from rest at 1.
 struct Fading {
     springs: problems::Springs,
-    band: banded::Pentadiagonal,
+    band: banded::Band,
     at: f64,
 }
 

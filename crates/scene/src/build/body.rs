@@ -5,7 +5,7 @@ use std::path::Path;
 use elastic::{Material, Profile, SpacingRule};
 use glam::DVec2;
 use integrator::State;
-use snake::{Body, Damping, Frame, Higher, Schedule, Schedules, Snake, Term, World};
+use snake::{Body, Damping, Frame, Schedule, Schedules, Snake, SnakeError, Term};
 
 use super::shape::{self, nodes, topology};
 use super::{Rules, number, refused};
@@ -80,12 +80,17 @@ fn schedules(text: &SceneText) -> Result<Schedules, SceneError> {
         let message = format!("factors of the mass must be above 0, but at {t} it is not");
         return Err(SceneError::key("schedule.mass", message));
     }
+    if s.higher.is_some() && text.material.higher.is_empty() {
+        let message = "there is nothing to multiply: give material.higher its weights";
+        return Err(SceneError::key("schedule.higher", message));
+    }
     Ok(Schedules {
         tether: one("tether", &s.tether)?,
         tension: one("tension", &s.tension)?,
         rigidity: one("rigidity", &s.rigidity)?,
         mass: one("mass", &s.mass)?,
         damping: one("damping", &s.damping)?,
+        higher: one("higher", &s.higher)?,
     })
 }
 
@@ -95,6 +100,9 @@ fn material(text: &SceneText, n: usize) -> Result<Material, SceneError> {
         tether: profile("material.tether", &m.tether, n)?,
         tension: profile("material.tension", &m.tension, n)?,
         rigidity: profile("material.rigidity", &m.rigidity, n)?,
+        higher: (m.higher.iter())
+            .map(|weight| profile("material.higher", weight, n))
+            .collect::<Result<_, _>>()?,
     };
     for (key, list) in [
         ("material.corners", &m.corners),
@@ -118,6 +126,15 @@ fn material(text: &SceneText, n: usize) -> Result<Material, SceneError> {
         material.rigidity = Profile::PerNode(rigidity);
         if !m.breaks.is_empty() {
             material.tension = Profile::PerNode(tension);
+        }
+        if !m.higher.is_empty() {
+            let refuse = |e| refused("material", &SnakeError::Elastic(e));
+            for &i in &m.corners {
+                material = material.with_corner(i, n).map_err(refuse)?;
+            }
+            for &i in &m.breaks {
+                material = material.with_break(i, n).map_err(refuse)?;
+            }
         }
     }
     Ok(material)
@@ -169,27 +186,6 @@ pub(super) fn body(text: &SceneText, rules: Rules, folder: &Path) -> Result<Body
     body.validate().map_err(|e| refused(key, &e))?;
     body.recenter().map_err(|e| refused(key, &e))?;
     Ok(body)
-}
-
-/// The world with the elastic terms above the second order in it, if there are any.
-pub(super) fn higher(text: &SceneText, body: &Body, world: World) -> Result<World, SceneError> {
-    let weights = &text.material.higher;
-    if weights.is_empty() {
-        return Ok(world);
-    }
-    let refuse = |message: &dyn std::fmt::Display| SceneError::key("material.higher", message);
-    if text.upkeep.is_some() || text.tips.is_some() {
-        return Err(refuse(
-            &"is for nodes that stay as many; without [upkeep] and [tips] it would do",
-        ));
-    }
-    let higher = Higher::new(body, weights).map_err(|e| refuse(&e))?;
-    if world.names().any(|name| name == "higher") {
-        return Err(refuse(
-            &"has a column of its own in records; another name for the force would do",
-        ));
-    }
-    Ok(world.with(higher))
 }
 
 /// Let the rules of `[densities]` choose the damping of a snake, which is at `start`.

@@ -40,7 +40,7 @@ pub(super) fn company(
         let start = body::start(&own, &shape, rules, folder).map_err(within)?;
         // the same forces, unless their weights are meant for another number of nodes or they know the curve
         let same = shape.len() == first.body().len() && !super::force::remembers(&own.force);
-        let surroundings = if same && own.material.higher.is_empty() {
+        let surroundings = if same {
             first.world().clone()
         } else {
             let mut unsaid = Vec::new();
@@ -54,7 +54,6 @@ pub(super) fn company(
             );
             world.map_err(within)?.0
         };
-        let surroundings = body::higher(&own, &shape, surroundings).map_err(within)?;
         let mut snake =
             Snake::new(shape, surroundings).map_err(|e| within(refused("snake", &e)))?;
         ends::slide(&own, &mut snake, &start, picture).map_err(within)?;

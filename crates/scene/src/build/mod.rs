@@ -99,7 +99,6 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         body.topology.is_closed(),
         &mut notes,
     )?;
-    let world = body::higher(text, &body, world)?;
     let (hand, world) = hand::hand(text, world, &body, &start)?;
     let mut snake = Snake::new(body, world).map_err(|e| refused("snake", &e))?;
     ends::slide(text, &mut snake, &start, picture.as_ref())?;
@@ -183,6 +182,9 @@ fn refused(otherwise: &str, error: &SnakeError) -> SceneError {
         SnakeError::NoNormal { .. } => "world.wall",
         SnakeError::Elastic(elastic::ElasticError::TooFewNodes { .. }) => "snake.nodes",
         SnakeError::Elastic(elastic::ElasticError::TooStiff { .. }) => "material",
+        SnakeError::Elastic(
+            elastic::ElasticError::BadOrder { .. } | elastic::ElasticError::BadPower { .. },
+        ) => "material.higher",
         SnakeError::Elastic(elastic::ElasticError::BadParameter { name, .. })
         | SnakeError::Elastic(elastic::ElasticError::WrongLength { name, .. })
         | SnakeError::BadNumber { name, .. } => match *name {
@@ -191,6 +193,7 @@ fn refused(otherwise: &str, error: &SnakeError) -> SceneError {
             "tether" => "material.tether",
             "tension" => "material.tension",
             "rigidity" => "material.rigidity",
+            name if name.starts_with("the weight of order") => "material.higher",
             "gravity" => "world.gravity",
             "weight" => "field.weight",
             _ => otherwise,

@@ -312,7 +312,7 @@ pub(crate) struct MaterialText {
     pub breaks: Vec<usize>,
     /// Weights of the orders 3, 4 and on.
     #[serde(default)]
-    pub higher: Vec<f64>,
+    pub higher: Vec<ProfileText>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -333,6 +333,7 @@ pub(crate) struct ScheduleText {
     pub rigidity: Option<Vec<[f64; 2]>>,
     pub mass: Option<Vec<[f64; 2]>>,
     pub damping: Option<Vec<[f64; 2]>>,
+    pub higher: Option<Vec<[f64; 2]>>,
 }
 
 #[derive(Debug, Clone, Default, Deserialize)]

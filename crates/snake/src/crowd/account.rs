@@ -67,6 +67,9 @@ fn add_up(sum: &mut Energies, energies: &Energies) {
     sum.tether += energies.tether;
     sum.tension += energies.tension;
     sum.rigidity += energies.rigidity;
+    if let (Some(sum), Some(more)) = (&mut sum.higher, energies.higher) {
+        *sum += more;
+    }
     sum.forces[0] += energies.forces.iter().sum::<f64>();
     sum.wall += energies.wall;
     sum.damping += energies.damping;
@@ -97,6 +100,7 @@ impl Crowd {
     pub fn energies(&mut self) -> Energies {
         let mut sum = Energies {
             forces: vec![0.0; 2],
+            higher: self.orders.then_some(0.0),
             contact: self.books.lost,
             scheme: self.books.scheme,
             upkeep: self.books.upkeep,

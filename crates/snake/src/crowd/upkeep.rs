@@ -415,12 +415,13 @@ impl Member {
         } else {
             (x, v) = (plan.draw(&self.state.x)?, plan.draw(&self.state.v)?);
         }
-        for profile in [
+        let lower = [
             &mut body.material.tether,
             &mut body.material.tension,
             &mut body.material.rigidity,
             &mut body.damping,
-        ] {
+        ];
+        for profile in lower.into_iter().chain(&mut body.material.higher) {
             if let Profile::PerNode(values) = profile {
                 *values = plan.pour(values)?;
             }
@@ -444,13 +445,20 @@ impl Member {
         let (a, b) = (self.snake.body(), other.snake.body());
         let mut body = a.clone();
         let (n, m) = (a.len(), b.len());
-        for (profile, more) in [
+        // an order that only one of them has weighs nothing in the other
+        let mut other_higher = b.material.higher.clone();
+        let orders = body.material.higher.len().max(other_higher.len());
+        body.material.higher.resize(orders, Profile::Uniform(0.0));
+        other_higher.resize(orders, Profile::Uniform(0.0));
+        let lower = [
             (&mut body.material.tether, &b.material.tether),
             (&mut body.material.tension, &b.material.tension),
             (&mut body.material.rigidity, &b.material.rigidity),
             (&mut body.mass, &b.mass),
             (&mut body.damping, &b.damping),
-        ] {
+        ];
+        let higher = body.material.higher.iter_mut().zip(&other_higher);
+        for (profile, more) in lower.into_iter().chain(higher) {
             if *profile != *more || !profile.is_uniform() {
                 let values = [profile.to_vec(n), more.to_vec(m)].concat();
                 *profile = Profile::PerNode(plan.pour(&values)?);

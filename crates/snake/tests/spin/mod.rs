@@ -17,6 +17,7 @@ pub(crate) fn body(frame: Frame) -> Body {
             tether: wave(0.3).scaled(0.5),
             tension: wave(0.2).scaled(2.0),
             rigidity: wave(-0.4),
+            higher: Vec::new(),
         })
         .with_frame(frame);
     body.mass = wave(0.5);

@@ -120,7 +120,7 @@ pub(crate) fn follow(
     {
         course.reach = scene.plan.dt * scene.start.v[0].length();
     }
-    if let Some([diagonal, first, second]) = snake.stiffness().band().circulant() {
+    if let Some([diagonal, first, second]) = snake.stiffness().band().circulant().as_deref() {
         let angle = TAU / real(snake.body().len());
         let mass = snake.mass()[0];
         course.mode_stiffness =

@@ -471,11 +471,12 @@ pub(crate) fn add(
 }
 
 /// Columns of a record that no force may be called.
-const TAKEN: [&str; 23] = [
+const TAKEN: [&str; 24] = [
     "kinetic",
     "tether",
     "tension",
     "rigidity",
+    "higher",
     "wall",
     "damping",
     "contact",
