@@ -304,8 +304,12 @@ impl Scene {
         let keep = &plan.recording.sorted();
         let mut ledger = if keep.energies {
             let begun = Ledger::begin(&mut self.snake, &state);
-            let begun = begun
-                .and_then(|ledger| ledger.under(plan.scheme, plan.start_rule, &mut self.snake));
+            // steps in a frame of its own equation are not the scheme's of the nodes
+            let begun = match self.terms {
+                Some(_) => begun,
+                None => begun
+                    .and_then(|ledger| ledger.under(plan.scheme, plan.start_rule, &mut self.snake)),
+            };
             Some(begun.map_err(|fault| SceneError::key("snake.start", fault))?)
         } else {
             None

@@ -92,6 +92,68 @@ fn the_sum_of_all_terms_stays_what_it_was_by_the_order_of_the_scheme() {
     }
 }
 
+/// The largest change of the sum in a single step, against the largest term, over a time of 1.2.
+fn step_gap(snake: &mut Snake, start: &State, scheme: Scheme, dt: f64) -> f64 {
+    let mut state = start.clone();
+    let ledger = Ledger::begin(snake, &state).unwrap();
+    let mut ledger = ledger.under(scheme, Start::SecondOrder, snake).unwrap();
+    let mut sum = ledger.energies(snake, &state).total();
+    let (mut gap, mut largest) = (0.0_f64, 0.0_f64);
+    let mut stepper = scheme.start(snake, &state, dt, Start::SecondOrder).unwrap();
+    while state.t < 1.2 - 0.5 * dt {
+        stepper.step(snake, &mut state).unwrap();
+        ledger.book(snake, &state).unwrap();
+        let energies = ledger.energies(snake, &state);
+        // what a scheme of two steps began with falls to a third in each, over ten of them and more
+        if state.t > 0.41 {
+            gap = gap.max((energies.total() - sum).abs());
+        }
+        sum = energies.total();
+        let values = energies.values();
+        largest = values.iter().fold(largest, |a, e| a.max(e.abs()));
+    }
+    gap / largest
+}
+
+#[test]
+fn a_single_step_of_every_scheme_leaves_over_what_its_order_says() {
+    let (mut body, state) = oval();
+    body.schedules.rigidity = None;
+    let world = World::default()
+        .with_gravity(DVec2::new(0.2, 0.5))
+        .with_image(whirl(), Sampling::Bilinear);
+    let snake = Snake::new(body.clone(), world.clone()).unwrap();
+    body.mass = elastic::Profile::Uniform(0.0);
+    let massless = Snake::new(body, world).unwrap();
+    for &scheme in Scheme::ALL {
+        let name = scheme.name();
+        let snake = if scheme == Scheme::GradientFlow {
+            &massless
+        } else {
+            &snake
+        };
+        let at = |dt: f64| step_gap(&mut snake.clone(), &state, scheme, dt);
+        let (coarse, fine) = (at(0.04), at(0.02));
+        let found = (coarse / fine).log2();
+        println!(
+            "| `{name}` | {} | {fine:.0e} | {found:.1} |",
+            scheme.order()
+        );
+        if matches!(scheme, Scheme::Report | Scheme::Leapfrog) {
+            // by their algebra: rounding, of x / dt² under the report's
+            assert!(fine < 1e-11, "{name}: {fine}");
+            continue;
+        }
+        // one order more in a single step; Simpson's rule over the cubic errs by the fifth power
+        let order = f64::from((scheme.order() + 1).min(5));
+        // the largest gap need not fall at the same time in both runs
+        assert!(
+            found > order - 0.4,
+            "{name}: order {found}, {coarse} {fine}"
+        );
+    }
+}
+
 #[test]
 fn what_the_ledger_books_is_what_happens() {
     let (body, state) = oval();
