@@ -59,6 +59,8 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &soft::CELLS,
     &soft::PEERS,
     &soft::RESPACING,
+    &soft::FATES,
+    &soft::GROWTH,
     &soft::LEDGER,
     &rest_traps::REST,
     &curvature::CURVATURE,

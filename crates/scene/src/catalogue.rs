@@ -45,6 +45,8 @@ scenes![
     "rope",
     "funnel",
     "dented-ring",
+    "balloons",
+    "growing-cell",
     "slope",
     "coarse-to-fine",
     "drowned-in-noise",

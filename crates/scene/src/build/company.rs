@@ -39,7 +39,9 @@ pub(super) fn company(
         let shape = body::body(&own, rules, folder).map_err(within)?;
         let start = body::start(&own, &shape, rules, folder).map_err(within)?;
         // the same forces, unless their weights are meant for another number of nodes or they know the curve
-        let same = shape.len() == first.body().len() && !super::force::remembers(&own.force);
+        let same = shape.len() == first.body().len()
+            && also.force.is_none()
+            && !super::force::remembers(&own.force);
         let surroundings = if same {
             first.world().clone()
         } else {
@@ -131,6 +133,9 @@ fn instead(text: &SceneText, also: &AlsoText) -> SceneText {
     snake.spin = also.spin.unwrap_or(snake.spin);
     if let Some(material) = &also.material {
         own.material = material.clone();
+    }
+    if let Some(force) = &also.force {
+        own.force.clone_from(force);
     }
     if let Some(densities) = &also.densities {
         own.densities = densities.clone();

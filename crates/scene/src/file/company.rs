@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::{DensitiesText, MaterialText, ShapeText, TopologyText};
+use super::{DensitiesText, ForceText, MaterialText, ShapeText, TopologyText};
 
 /// Further snakes: as the first, but for what is given here.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -18,6 +18,8 @@ pub(crate) struct AlsoText {
     pub spin: Option<f64>,
     pub material: Option<MaterialText>,
     pub densities: Option<DensitiesText>,
+    #[serde(default, deserialize_with = "super::force::own_forces")]
+    pub force: Option<Vec<ForceText>>,
 }
 
 #[derive(Debug, Clone, Deserialize)]

@@ -142,6 +142,13 @@ pub(super) fn forces<'de, D: Deserializer<'de>>(
     tables.into_iter().enumerate().map(read).collect()
 }
 
+/// The forces of a further snake, where it has its own.
+pub(super) fn own_forces<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Vec<ForceText>>, D::Error> {
+    forces(deserializer).map(Some)
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum PolarityText {

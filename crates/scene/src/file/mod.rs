@@ -159,6 +159,8 @@ pub(crate) enum RegionText {
     Ellipse(EllipseText),
     Circle(CircleText),
     Road(RoadText),
+    /// What is in any of these.
+    Any(Vec<Self>),
 }
 
 /// What is no farther than half a width from a polyline.

@@ -38,30 +38,19 @@ impl Picture {
             }
         }
         check_region(&text.region)?;
-        let inside = |p: DVec2| match &text.region {
-            RegionText::RightOf(x) => p.x > *x,
-            RegionText::Box([x0, y0, x1, y1]) => {
-                (*x0..=*x1).contains(&p.x) && (*y0..=*y1).contains(&p.y)
-            }
-            RegionText::Circle(c) => p.distance(DVec2::from_array(c.center)) <= c.radius,
-            RegionText::Ellipse(e) => {
-                let turned = DVec2::from_angle(-e.angle).rotate(p - DVec2::from_array(e.center));
-                (turned / DVec2::from_array(e.axes)).length_squared() <= 1.0
-            }
-            RegionText::Road(road) => road.points.windows(2).any(|pair| {
-                let (a, b) = (DVec2::from_array(pair[0]), DVec2::from_array(pair[1]));
-                let along = b - a;
-                let share = (p - a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
-                p.distance(a + along * share.clamp(0.0, 1.0)) <= 0.5 * road.width
-            }),
+        // each by itself: those of a list are looked at one after another
+        let regions: Vec<&RegionText> = match &text.region {
+            RegionText::Any(list) => list.iter().collect(),
+            one => vec![one],
         };
         let share = |center: DVec2| {
             // each region is convex: with its four outermost points a pixel is inside as a whole
             let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
-            if corners
-                .iter()
-                .all(|&(i, j)| inside(center + DVec2::new(i, j) * (7.0 / 16.0)))
-            {
+            let whole = |region: &&RegionText| {
+                let mut corners = corners.iter();
+                corners.all(|&(i, j)| inside(region, center + DVec2::new(i, j) * (7.0 / 16.0)))
+            };
+            if regions.iter().any(whole) {
                 return 1.0;
             }
             let mut share = 0.0;
@@ -69,7 +58,7 @@ impl Picture {
                 for i in 0..8 {
                     let offset =
                         DVec2::new(f64::from(2 * i + 1), f64::from(2 * j + 1)) / 16.0 - 0.5;
-                    if inside(center + offset) {
+                    if regions.iter().any(|region| inside(region, center + offset)) {
                         share += 1.0 / 64.0;
                     }
                 }
@@ -100,10 +89,40 @@ impl Picture {
     }
 }
 
+/// Whether a place is in a region that is no list.
+fn inside(region: &RegionText, p: DVec2) -> bool {
+    match region {
+        RegionText::RightOf(x) => p.x > *x,
+        RegionText::Box([x0, y0, x1, y1]) => {
+            (*x0..=*x1).contains(&p.x) && (*y0..=*y1).contains(&p.y)
+        }
+        RegionText::Circle(c) => p.distance(DVec2::from_array(c.center)) <= c.radius,
+        RegionText::Ellipse(e) => {
+            let turned = DVec2::from_angle(-e.angle).rotate(p - DVec2::from_array(e.center));
+            (turned / DVec2::from_array(e.axes)).length_squared() <= 1.0
+        }
+        RegionText::Road(road) => road.points.windows(2).any(|pair| {
+            let (a, b) = (DVec2::from_array(pair[0]), DVec2::from_array(pair[1]));
+            let along = b - a;
+            let share = (p - a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
+            p.distance(a + along * share.clamp(0.0, 1.0)) <= 0.5 * road.width
+        }),
+        RegionText::Any(_) => false, // a list in a list is refused
+    }
+}
+
 /// Refuse a region whose numbers describe none.
 fn check_region(region: &RegionText) -> Result<(), SceneError> {
     let at = |name: &str| format!("picture.drawn.region.{name}");
     match region {
+        RegionText::Any(list) => {
+            let nested = list.iter().any(|one| matches!(one, RegionText::Any(_)));
+            if nested || !(1..=MOST_CORNERS).contains(&list.len()) {
+                let message = format!("1 to {MOST_CORNERS} regions that are no lists would do");
+                return Err(SceneError::key("picture.drawn.region.any", message));
+            }
+            list.iter().try_for_each(check_region)
+        }
         RegionText::Road(road) => {
             number::length(&at("road.width"), road.width)?;
             let points = road.points.iter().map(|&p| DVec2::from_array(p));
