@@ -36,9 +36,11 @@ pub(crate) const FATES: Experiment = Experiment {
                 let of = |n: &str| r.number(n);
                 let (merges, splits, gone) = (of("merged")?, of("split")?, of("vanished")?);
                 let most = of("farthest from its disc")?;
+                let counts = [merges, splits, gone, of("curves at the end")?];
+                let mut counts = counts.iter().zip([1.0, 2.0, 2.0, 3.0]);
+                let as_many = counts.all(|(found, expected)| (found - expected).abs() < 0.5);
                 Ok(Finding::new(
-                    [merges, splits, gone, of("curves at the end")?] == [1.0, 2.0, 2.0, 3.0]
-                        && most < 2.0,
+                    as_many && most < 2.0,
                     format!(
                         "two merged at t = {:.1}; the waist parted at its ends from {:.1} on, and the scrap between vanished; the fourth had at {:.1}; no node of the three left is farther than {most:.1} px from its disc's border",
                         of("time of merged")?,
@@ -59,7 +61,7 @@ pub(crate) const FATES: Experiment = Experiment {
                     r.number("alone: least area")?,
                 );
                 Ok(Finding::new(
-                    crossings == 0.0 && least > 0.0 && alone > 0.0,
+                    crossings < 0.5 && least > 0.0 && alone > 0.0,
                     format!(
                         "{crossings} crossings in {:.0} outlines, least area {least:.1} px²; left alone up to {alone:.0} at once and {flipped:.1} px²",
                         r.number("outlines looked at")?
@@ -119,7 +121,7 @@ fn run() -> Result<Record, SandboxError> {
             }
             if step.is_multiple_of(EVERY) {
                 let e = crowd.energies();
-                rows.push([
+                let named = [
                     e.kinetic,
                     e.elastic(),
                     e.forces[0],
@@ -127,7 +129,10 @@ fn run() -> Result<Record, SandboxError> {
                     e.damping,
                     e.contact,
                     e.parameters,
-                    e.frame + e.scheme,
+                ];
+                let rest = e.total() - named.iter().sum::<f64>();
+                rows.push([
+                    named[0], named[1], named[2], named[3], named[4], named[5], named[6], rest,
                 ]);
                 for member in crowd.members() {
                     let x = &member.state.x;
