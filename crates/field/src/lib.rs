@@ -19,6 +19,7 @@
 //! | a schedule from coarse to fine | [`coarse_to_fine`] |
 //! | edges to a fraction of a pixel | [`edge_points`] |
 //! | noise, contrast and blur of a picture | [`image_scale`] |
+//! | a number at every place, from grey, edges, contrast or distance | [`Map`] and [`grey_share`], [`edge_share`], … |
 //! | a longer reach | [`distance_force`], [`point_distance_force`], [`vector_flow`] (GVF), [`vector_convolution`] (VFC) |
 //!
 //! All but those that ask for the curve give a [`ForceField`], which is sampled between pixel centers: bilinear, bicubic, with
@@ -56,6 +57,7 @@ mod force_field;
 mod gradient;
 mod grid;
 pub mod literal;
+mod map;
 mod masked;
 mod measure;
 mod points;
@@ -78,6 +80,7 @@ pub use fast::{FastForce, Pixel, Recipe, fast_force, lazy_force};
 pub use force_field::ForceField;
 pub use gradient::{Across, mask_x, mask_y};
 pub use grid::{Grid, LARGEST_PIXEL, LARGEST_SIGMA, MOST_PASSES};
+pub use map::{Map, contrast_share, distance_share, edge_share, grey_share};
 pub use masked::MaskedImage;
 pub use measure::{ImageScale, image_scale, noise_sigma};
 pub use points::{distance_to_points, point_distance_force};

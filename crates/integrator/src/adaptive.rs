@@ -279,7 +279,7 @@ impl Adaptive {
 
     /// Bring the system back to the time of `from`.
     fn rewind(&mut self, system: &mut dyn System) {
-        if system.advance(self.from.t) {
+        if system.advance(self.from.t, &self.from.x) {
             self.watch.version += 1;
         }
     }

@@ -98,7 +98,7 @@ impl Collocation {
         state: &State,
         dt: f64,
     ) -> Result<Self, SchemeError> {
-        system.advance(state.t);
+        system.advance(state.t, &state.x);
         let name = method.name();
         stepper::check(name, system, state, dt, method.need())?;
         let tableau = Tableau::new(method);
@@ -131,7 +131,7 @@ impl Collocation {
     }
 
     fn advance(&mut self, system: &mut dyn System, t: f64, x: &[DVec2]) -> Result<(), Fault> {
-        if system.advance(t) {
+        if system.advance(t, x) {
             self.stand_in.rebuild(system, x)?;
             if let Some(real) = &mut self.real {
                 real.rebuild(system, x)?;
@@ -315,7 +315,12 @@ impl Collocation {
 impl Stepper for Collocation {
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let (dt, t) = (self.clock.dt, self.clock.now());
-        self.advance(system, t + 0.5 * dt, &state.x)?;
+        let mut middle = std::mem::take(&mut self.next_x);
+        each::onto([&state.x, &state.v], &mut middle, move |[x, v], _| {
+            x + 0.5 * dt * v
+        });
+        self.advance(system, t + 0.5 * dt, &middle)?;
+        self.next_x = middle;
         system.elastic(&state.x, &mut self.elastic);
         if system.external_is_constant() {
             system.external(t, &state.x, &state.v, &mut self.elastic)?;

@@ -120,7 +120,7 @@ impl DormandPrince {
                 value: tolerance,
             });
         }
-        system.advance(state.t);
+        system.advance(state.t, &state.x);
         stepper::check(Self::NAME, system, state, dt, Mass::Needed)?;
         let n = state.len();
         let mut rates = Rates::default();
@@ -283,7 +283,7 @@ impl DormandPrince {
             }
             stepper::finite(&self.to.x)?;
             let t = self.from.t + NODES[stage] * h;
-            self.rates.advance(Self::NAME, system, t, &self.from.x)?;
+            self.rates.advance(Self::NAME, system, t, &self.to.x)?;
             let (x, v) = (&self.to.x, &self.to.v);
             self.stages_x[stage].copy_from_slice(v);
             self.rates

@@ -65,7 +65,7 @@ impl Euler {
         state: &State,
         dt: f64,
     ) -> Result<Self, SchemeError> {
-        system.advance(state.t);
+        system.advance(state.t, &state.x);
         let (need, p) = match rule {
             Rule::GradientFlow => (Mass::Optional, 0.0),
             Rule::Backward | Rule::Imex => (Mass::Needed, 1.0 / (dt * dt)),

@@ -65,7 +65,7 @@ impl Exact {
         state: &State,
         dt: f64,
     ) -> Result<Self, SchemeError> {
-        system.advance(state.t);
+        system.advance(state.t, &state.x);
         stepper::check(join.name(), system, state, dt, Mass::Needed)?;
         let modes = Modes::new(join.name(), system)?;
         let zeros = || vec![DVec2::ZERO; state.len()];
@@ -107,7 +107,7 @@ impl Exact {
 
     /// Bring the system to time `t`, and the modes with it.
     fn advance(&mut self, system: &mut dyn System, t: f64, x: &[DVec2]) -> Result<(), Fault> {
-        if !system.advance(t) {
+        if !system.advance(t, x) {
             return Ok(());
         }
         self.stand_in.rebuild(system, x)?;

@@ -70,7 +70,7 @@ impl Leapfrog {
         dt: f64,
         start: Start,
     ) -> Result<Self, SchemeError> {
-        system.advance(state.t);
+        system.advance(state.t, &state.x);
         stepper::check(Self::NAME, system, state, dt, Mass::Needed)?;
         let n = state.len();
         let zeros = || vec![DVec2::ZERO; n];
@@ -181,12 +181,6 @@ impl Stepper for Leapfrog {
             self.drift(&state.x, &early)?;
         }
         let t = self.clock.next();
-        if system.advance(t) {
-            if stepper::densities(Self::NAME, system, Mass::Needed).is_err() {
-                return Err(stepper::unsolvable(&state.x));
-            }
-            self.prepare(system);
-        }
         let moment = Moment {
             t,
             dt,
@@ -196,6 +190,13 @@ impl Stepper for Leapfrog {
         let touched = self.contacts.meet(system, moment, &state.x, next, half)?;
         // the force of the old place is lost if the new one has none, so a fault starts afresh
         self.ready = false;
+        if system.advance(t, &self.next) {
+            if stepper::densities(Self::NAME, system, Mass::Needed).is_err() {
+                return Err(stepper::unsolvable(&state.x));
+            }
+            self.prepare(system);
+        }
+        let (next, half) = (&mut self.next, &mut self.half);
         stepper::force(system, t, next, half, &mut self.force)?;
         self.ready = true;
         if touched {
@@ -224,6 +225,7 @@ impl Stepper for Leapfrog {
         self.clock.restart(state);
         self.ready = false;
         self.early.clear();
+        system.advance(self.clock.now(), &state.x);
         self.prepare(system);
     }
 }

@@ -50,7 +50,7 @@ impl LinearlyImplicit {
         state: &State,
         dt: f64,
     ) -> Result<Self, SchemeError> {
-        system.advance(state.t);
+        system.advance(state.t, &state.x);
         stepper::check(Self::NAME, system, state, dt, Mass::Optional)?;
         let n = state.len();
         let weights = (1.0 / (dt * dt), 1.0 / dt);

@@ -74,7 +74,7 @@ impl GeneralizedAlpha {
                 value: rho,
             });
         }
-        system.advance(state.t);
+        system.advance(state.t, &state.x);
         stepper::check(Self::NAME, system, state, dt, Mass::Needed)?;
         let weights = Weights::new(rho);
         let Weights { m, f, g, b } = weights;
@@ -224,7 +224,7 @@ impl Newmark {
         state: &State,
         dt: f64,
     ) -> Result<Self, SchemeError> {
-        system.advance(state.t);
+        system.advance(state.t, &state.x);
         stepper::check(Self::NAME, system, state, dt, Mass::Needed)?;
         Self::named(Self::NAME, Mass::Needed, system, state, dt)
     }
@@ -252,9 +252,13 @@ impl Newmark {
 
 impl Stepper for Newmark {
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
-        let t = self.clock.now();
-        self.solver
-            .advance(system, t + 0.5 * self.clock.dt, &state.x)?;
+        let (t, half) = (self.clock.now(), 0.5 * self.clock.dt);
+        each::onto(
+            [&state.x, &state.v],
+            &mut self.next_x,
+            move |[x, v], _| x + half * v,
+        );
+        self.solver.advance(system, t + half, &self.next_x)?;
         self.take(system, t, state)?;
         self.clock.tick(state);
         Ok(())

@@ -37,7 +37,7 @@ impl Report {
         dt: f64,
         start: Start,
     ) -> Result<Self, SchemeError> {
-        system.advance(state.t);
+        system.advance(state.t, &state.x);
         stepper::check(Self::NAME, system, state, dt, Mass::Needed)?;
         let zeros = || vec![DVec2::ZERO; state.len()];
         let previous = state
@@ -64,7 +64,8 @@ impl Stepper for Report {
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let dt = self.dt;
         let dt2 = dt * dt;
-        if system.advance(state.t) && stepper::densities(Self::NAME, system, Mass::Needed).is_err()
+        if system.advance(state.t, &state.x)
+            && stepper::densities(Self::NAME, system, Mass::Needed).is_err()
         {
             return Err(stepper::unsolvable(&state.x));
         }

@@ -62,7 +62,7 @@ impl Rates {
         t: f64,
         x: &[DVec2],
     ) -> Result<bool, Fault> {
-        if !system.advance(t) {
+        if !system.advance(t, x) {
             return Ok(false);
         }
         if stepper::densities(name, system, Mass::Needed).is_err() {
@@ -110,7 +110,7 @@ impl Rk4 {
         state: &State,
         dt: f64,
     ) -> Result<Self, SchemeError> {
-        system.advance(state.t);
+        system.advance(state.t, &state.x);
         stepper::check(Self::NAME, system, state, dt, Mass::Needed)?;
         let n = state.len();
         let zeros = || vec![DVec2::ZERO; n];
@@ -149,7 +149,7 @@ impl Stepper for Rk4 {
             (1.0, 1.0, 0.0),
         ] {
             let now = t + at * dt;
-            self.rates.advance(Self::NAME, system, now, &state.x)?;
+            self.rates.advance(Self::NAME, system, now, &self.x)?;
             self.rates
                 .acceleration(system, now, &self.x, &self.v, &mut self.rate)?;
             let (share, reach) = (dt * weight / 6.0, dt * ahead);

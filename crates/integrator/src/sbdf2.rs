@@ -48,7 +48,7 @@ impl Sbdf2 {
         state: &State,
         dt: f64,
     ) -> Result<Self, SchemeError> {
-        system.advance(state.t);
+        system.advance(state.t, &state.x);
         stepper::check(Self::NAME, system, state, dt, Mass::Optional)?;
         let solver = |p: f64, q: f64| {
             Solver::new(Self::NAME, Mass::Optional, system, (p / (dt * dt), q / dt))

@@ -72,7 +72,7 @@ impl Solver {
         t: f64,
         x: &[DVec2],
     ) -> Result<bool, Fault> {
-        if !system.advance(t) {
+        if !system.advance(t, x) {
             return Ok(false);
         }
         self.rebuild(system, x)?;

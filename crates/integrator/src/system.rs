@@ -134,9 +134,13 @@ pub trait System {
     /// `A`; rows and columns of held nodes are zero.
     fn stiffness(&self) -> &Operator;
 
-    /// Bring schedules to time `t`; true if mass, damping or stiffness changed.
-    fn advance(&mut self, t: f64) -> bool {
-        let _ = t;
+    /// Bring what changes with time to `t`, and what changes with place to nodes at `x`; true if mass, damping or
+    /// stiffness changed.
+    ///
+    /// Schemes ask where they are: at the state and at every stage of an explicit one, and where the middle of the step
+    /// is asked for, at `x + ½ dt v`.
+    fn advance(&mut self, t: f64, x: &[DVec2]) -> bool {
+        let _ = (t, x);
         false
     }
 

@@ -69,8 +69,8 @@ impl Wrapped for Watched<'_> {
         &mut *self.inner
     }
 
-    fn advance(&mut self, t: f64) -> bool {
-        if self.inner.advance(t) {
+    fn advance(&mut self, t: f64, x: &[DVec2]) -> bool {
+        if self.inner.advance(t, x) {
             self.watch.version += 1;
         }
         let changed = *self.seen != self.watch.version;

@@ -59,8 +59,8 @@ pub trait Wrapped {
     }
 
     /// See [`System::advance`].
-    fn advance(&mut self, t: f64) -> bool {
-        self.inner_mut().advance(t)
+    fn advance(&mut self, t: f64, x: &[DVec2]) -> bool {
+        self.inner_mut().advance(t, x)
     }
 
     /// See [`System::elastic`].
@@ -142,8 +142,8 @@ impl<T: Wrapped> System for T {
         Wrapped::stiffness(self)
     }
 
-    fn advance(&mut self, t: f64) -> bool {
-        Wrapped::advance(self, t)
+    fn advance(&mut self, t: f64, x: &[DVec2]) -> bool {
+        Wrapped::advance(self, t, x)
     }
 
     fn elastic(&mut self, x: &[DVec2], force: &mut [DVec2]) {

@@ -191,7 +191,7 @@ impl crate::Wrapped for Fading {
         &mut self.springs
     }
 
-    fn advance(&mut self, t: f64) -> bool {
+    fn advance(&mut self, t: f64, _: &[glam::DVec2]) -> bool {
         let changed = t.to_bits() != self.at.to_bits();
         self.turn(t);
         changed
