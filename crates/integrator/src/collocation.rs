@@ -12,7 +12,7 @@ use crate::newmark::StandIn;
 use crate::solver::Solver;
 use crate::stepper::{self, Clock, Mass};
 use crate::tableau::{Eigenpair, Method, Tableau};
-use crate::{Fault, SchemeError, State, Stepper, System};
+use crate::{Fault, SchemeError, State, Stepper, System, each};
 
 /// How often the external forces at the stages are asked for again.
 const ROUNDS: usize = 30;
@@ -315,12 +315,17 @@ impl Collocation {
 impl Stepper for Collocation {
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let (dt, t) = (self.clock.dt, self.clock.now());
-        let mut middle = std::mem::take(&mut self.next_x);
-        each::onto([&state.x, &state.v], &mut middle, move |[x, v], _| {
-            x + 0.5 * dt * v
-        });
-        self.advance(system, t + 0.5 * dt, &middle)?;
-        self.next_x = middle;
+        if system.depends_on_place() {
+            let mut middle = std::mem::take(&mut self.next_x);
+            each::onto([&state.x, &state.v], &mut middle, move |[x, v], _| {
+                x + 0.5 * dt * v
+            });
+            let advanced = self.advance(system, t + 0.5 * dt, &middle);
+            self.next_x = middle;
+            advanced?;
+        } else {
+            self.advance(system, t + 0.5 * dt, &state.x)?;
+        }
         system.elastic(&state.x, &mut self.elastic);
         if system.external_is_constant() {
             system.external(t, &state.x, &state.v, &mut self.elastic)?;

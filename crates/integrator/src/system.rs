@@ -137,10 +137,15 @@ pub trait System {
     /// Bring what changes with time to `t`, and what changes with place to nodes at `x`; true if mass, damping or
     /// stiffness changed.
     ///
-    /// Schemes ask where they are: at the state and at every stage of an explicit one, and where the middle of the step
-    /// is asked for, at `x + ½ dt v`.
+    /// Places are those of the state at that time, and those of its stages in an explicit scheme; in the middle of an implicit
+    /// step they are `x + ½ dt v`.
     fn advance(&mut self, t: f64, x: &[DVec2]) -> bool {
         let _ = (t, x);
+        false
+    }
+
+    /// Whether [`advance`](Self::advance) asks where the nodes are; if not, any places will do.
+    fn depends_on_place(&self) -> bool {
         false
     }
 

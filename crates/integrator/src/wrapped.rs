@@ -63,6 +63,11 @@ pub trait Wrapped {
         self.inner_mut().advance(t, x)
     }
 
+    /// See [`System::depends_on_place`].
+    fn depends_on_place(&self) -> bool {
+        self.inner().depends_on_place()
+    }
+
     /// See [`System::elastic`].
     fn elastic(&mut self, x: &[DVec2], force: &mut [DVec2]) {
         self.inner_mut().elastic(x, force);
@@ -144,6 +149,10 @@ impl<T: Wrapped> System for T {
 
     fn advance(&mut self, t: f64, x: &[DVec2]) -> bool {
         Wrapped::advance(self, t, x)
+    }
+
+    fn depends_on_place(&self) -> bool {
+        Wrapped::depends_on_place(self)
     }
 
     fn elastic(&mut self, x: &[DVec2], force: &mut [DVec2]) {

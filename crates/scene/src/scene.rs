@@ -250,8 +250,8 @@ impl Scene {
         }
         // sub-steps stay below the limit by themselves
         let force = plan.force || plan.tolerance.is_some();
-        plan.scheme
-            .check(&self.snake, plan.dt, force)
+        self.snake
+            .check_step(plan.scheme, plan.dt, force)
             .map_err(|e| refused(&e))
     }
 

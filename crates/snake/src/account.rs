@@ -3,6 +3,7 @@
 use glam::DVec2;
 use integrator::{Meeting, State};
 
+use crate::factors::Factors;
 use crate::{Curve, Energies, Snake};
 
 /// What a ledger needs to know of the moments between two states.
@@ -27,9 +28,9 @@ pub(crate) struct Touched {
 
 impl Snake {
     /// The potential of every force of the world, in its order; None for one that has none, and for
-    /// all where the mass, on which they may depend, changes with time.
+    /// all where the mass, on which they may depend, changes with time or place.
     pub(crate) fn potentials(&self, curve: &Curve<'_>) -> Vec<Option<f64>> {
-        let constant = self.body.schedules.mass.is_none();
+        let constant = self.body.schedules.mass.is_none() && self.body.maps.mass.is_none();
         self.world
             .forces
             .iter()
@@ -54,15 +55,26 @@ impl Snake {
     /// Kinetic and elastic energy, and that of penalty walls; parameters are those of time `t`, whatever
     /// time a scheme last asked for.
     fn own_energies(&mut self, t: f64, x: &[DVec2], v: &[DVec2]) -> Energies {
+        let factors = self.factors_at(t, x);
+        let mut energies = self.energies_under(&factors, x, v);
+        for &x in x {
+            for wall in &self.world.walls {
+                energies.wall += self.body.spacing * wall.energy(x);
+            }
+        }
+        energies
+    }
+
+    /// Kinetic and elastic energy under these factors.
+    fn energies_under(&mut self, factors: &Factors, x: &[DVec2], v: &[DVec2]) -> Energies {
         let h = self.body.spacing;
-        let factors = self.body.schedules.at(t);
-        let [tether, tension, rigidity, mass, _, higher] = factors;
-        let turning = self.turning.as_ref();
-        let rotation = turning.map(|turning| turning.rotation_at(x, factors));
+        let rotation = self.rotation_under(factors, x);
         let mut e = std::mem::take(&mut self.deformation);
         self.deformation_from(x, rotation, &mut e);
-        let body = &self.body;
-        let elastic = elastic::elastic_energy(&e, body.topology, &body.material, h);
+        let (body, [tether, tension, rigidity, common, _, higher]) = (&self.body, factors.common);
+        let by_place = factors.by_place();
+        let material = by_place.material(&body.material);
+        let elastic = elastic::elastic_energy(&e, body.topology, &material, h);
         let mut energies = Energies {
             tether: tether * elastic.tether,
             tension: tension * elastic.tension,
@@ -70,17 +82,15 @@ impl Snake {
             higher: (body.material.order() > 2).then_some(higher * elastic.higher),
             ..Energies::default()
         };
-        for (i, (&x, &v)) in x.iter().zip(v).enumerate() {
-            energies.kinetic += 0.5 * h * (mass * body.mass.at(i)) * v.length_squared();
-            for wall in &self.world.walls {
-                energies.wall += h * wall.energy(x);
-            }
+        let mass = by_place.times(3, &body.mass);
+        for (i, &v) in v.iter().enumerate() {
+            energies.kinetic += 0.5 * h * (common * mass.at(i)) * v.length_squared();
         }
         self.deformation = e;
         energies
     }
 
-    /// Keep account of what contacts take and schedules put in, from now on.
+    /// Keep account of what contacts take and parameters put in, from now on.
     pub(crate) fn keep_account(&mut self) {
         self.account = Some(Account::default());
     }
@@ -105,20 +115,23 @@ impl Snake {
         }
     }
 
-    /// Energy that schedules have put in between two times: what the change of the parameters alone
-    /// does to the energy, the mean over the way by Simpson's rule: start, middle, end.
+    /// Energy that schedules and maps have put in between two moments: what the change of the parameters alone
+    /// does to the energy, the mean over the way by Simpson's rule: start, middle, end. Of the kinetic energy it is that of
+    /// the velocities `carried`, where a scheme has one set of them for the whole step.
     pub(crate) fn put_in(
         &mut self,
-        (before, after): (f64, f64),
+        (before, after): (&Factors, &Factors),
         way: [(&[DVec2], &[DVec2]); 3],
+        carried: Option<&[DVec2]>,
     ) -> f64 {
-        if self.body.schedules.is_empty() {
+        if self.body.schedules.is_empty() && self.body.maps.is_empty() {
             return 0.0;
         }
         let mut put_in = 0.0;
         for ((x, v), weight) in way.into_iter().zip([1.0, 4.0, 1.0]) {
-            let own = |snake: &mut Self, t: f64| snake.own_energies(t, x, v);
-            let change = own(self, after).mechanical() - own(self, before).mechanical();
+            let v = carried.unwrap_or(v);
+            let change = self.energies_under(after, x, v).mechanical()
+                - self.energies_under(before, x, v).mechanical();
             put_in += weight / 6.0 * change;
         }
         put_in
@@ -127,9 +140,11 @@ impl Snake {
     /// What damping, internal damping and the dampers of penalty walls take at `state`, per unit of time and length of
     /// curve a node.
     pub(crate) fn loss(&self, state: &State) -> f64 {
-        let (mut loss, damping) = (self.inner_loss(state), self.body.schedules.at(state.t)[4]);
+        let mut loss = self.inner_loss(state);
+        let factors = self.factors_at(state.t, &state.x);
+        let damping = factors.times(4, &self.body.damping);
         for (i, (&x, &v)) in state.x.iter().zip(&state.v).enumerate() {
-            loss += damping * self.body.damping.at(i) * v.length_squared();
+            loss += damping.at(i) * v.length_squared();
             for wall in self.world.walls.iter().filter(|wall| wall.is_spring()) {
                 loss -= (wall.force(x, v) - wall.force(x, DVec2::ZERO)).dot(v);
             }

@@ -24,8 +24,8 @@ use glam::DVec2;
 use integrator::{Fault, Scheme, Start, State, System};
 
 use crate::account::Touched;
+use crate::factors::Factors;
 use crate::ledger::Booking;
-use crate::parameters::scaled;
 use crate::{Snake, Wall};
 
 /// Which formulas.
@@ -58,6 +58,7 @@ struct Seen {
     loads: Vec<Vec<DVec2>>,
     /// All of them together.
     total: Vec<DVec2>,
+    factors: Factors,
     mass: Vec<f64>,
     damping: Vec<f64>,
 }
@@ -95,10 +96,11 @@ impl Seen {
             drag: zeros(),
             ..Self::default()
         };
-        (seen.mass, seen.damping) = snake.densities_at(t);
-        snake.conservative_force(t, x, bookings, &mut seen.pull)?;
+        seen.factors = snake.factors_at(t, x);
+        (seen.mass, seen.damping) = snake.densities_under(&seen.factors);
+        snake.conservative_force(&seen.factors, t, x, bookings, &mut seen.pull)?;
         if !snake.body().frame.reaction {
-            snake.frame_force(t, x, &mut seen.frame);
+            snake.frame_force(&seen.factors, x, &mut seen.frame);
         }
         snake.damper_force(x, v, &mut seen.drag);
         for booking in bookings {
@@ -231,7 +233,8 @@ impl Algebra {
         };
         let (middle_x, middle_v) = (half(&from.x, x), half(&v, &full));
         let way = [(&from.x[..], &v[..]), (&middle_x, &middle_v), (x, &full)];
-        booked.parameters = snake.put_in((from.t, to.t), way);
+        let factors = (&last.factors, &here.factors);
+        booked.parameters = snake.put_in(factors, way, Some(&carried));
         let pairs = last.loads.iter().zip(&here.loads);
         booked.works = pairs.map(|(first, second)| work(first, second)).collect();
         if let Some(touched) = &touched {
@@ -278,7 +281,9 @@ impl Algebra {
             .map(|(a, b)| 0.5 * (*a + *b))
             .collect();
         let mut force = vec![DVec2::ZERO; x.len()];
-        snake.conservative_force(0.5 * (from.t + t), &middle, bookings, &mut force)?;
+        let now = 0.5 * (from.t + t);
+        let factors = snake.halfway(now, &self.last.factors, &here.factors);
+        snake.conservative_force(&factors, now, &middle, bookings, &mut force)?;
         let mut bend = 0.0;
         for i in 0..x.len() {
             let ends = self.last.pull[i] + here.pull[i];
@@ -315,27 +320,23 @@ impl Snake {
         }
     }
 
-    /// Mass and damping of every node at time `t`.
-    fn densities_at(&self, t: f64) -> (Vec<f64>, Vec<f64>) {
-        if self.body.schedules.is_empty() {
-            return (self.mass.clone(), self.damping.clone());
-        }
-        let (_, mass, damping) = scaled(&self.body, self.body.schedules.at(t));
-        (mass, damping)
+    /// Mass and damping of every node under these factors.
+    fn densities_under(&self, factors: &Factors) -> (Vec<f64>, Vec<f64>) {
+        let n = self.body.len();
+        let mass = factors.times(3, &self.body.mass).to_vec(n);
+        (mass, factors.times(4, &self.body.damping).to_vec(n))
     }
 
-    /// −K e of every node at time `t`, held or not; and its sum.
-    fn raw_elastic(&mut self, t: f64, x: &[DVec2], force: &mut [DVec2]) -> DVec2 {
-        let factors = self.body.schedules.at(t);
-        let turning = self.turning.as_ref();
-        let rotation = turning.map(|turning| turning.rotation_at(x, factors));
+    /// −K e of every node under these factors, held or not; and its sum.
+    fn raw_elastic(&mut self, factors: &Factors, x: &[DVec2], force: &mut [DVec2]) -> DVec2 {
+        let rotation = self.rotation_under(factors, x);
         let mut e = std::mem::take(&mut self.deformation);
         self.deformation_from(x, rotation, &mut e);
         let own: Material;
-        let material = if self.body.schedules.is_empty() {
+        let material = if factors.same(&self.factors) {
             &self.material
         } else {
-            own = scaled(&self.body, factors).0;
+            own = factors.material(&self.body.material);
             &own
         };
         let body = &self.body;
@@ -347,12 +348,13 @@ impl Snake {
     /// Everything that has a potential: −Pᵀ K e, forces of the world but those booked, springs of walls. Overwrites `force`.
     pub(crate) fn conservative_force(
         &mut self,
+        factors: &Factors,
         t: f64,
         x: &[DVec2],
         bookings: &[Booking],
         force: &mut [DVec2],
     ) -> Result<(), Fault> {
-        let total = self.raw_elastic(t, x, force);
+        let total = self.raw_elastic(factors, x, force);
         for (force, &weight) in force.iter_mut().zip(&self.weights) {
             *force -= total * weight;
         }
@@ -373,8 +375,8 @@ impl Snake {
     }
 
     /// What a frame without reaction adds to −Pᵀ K e, so that −K e is felt. Overwrites `force`.
-    pub(crate) fn frame_force(&mut self, t: f64, x: &[DVec2], force: &mut [DVec2]) {
-        let total = self.raw_elastic(t, x, force);
+    pub(crate) fn frame_force(&mut self, factors: &Factors, x: &[DVec2], force: &mut [DVec2]) {
+        let total = self.raw_elastic(factors, x, force);
         for (force, &weight) in force.iter_mut().zip(&self.weights) {
             *force = total * weight;
         }

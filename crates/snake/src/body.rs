@@ -4,7 +4,7 @@ use elastic::{Bound, Material, Profile, SpacingRule, Topology};
 use glam::DVec2;
 
 use crate::error::finite_at_least;
-use crate::{Schedules, SnakeError, Turn};
+use crate::{Maps, Schedules, SnakeError, Turn};
 
 /// Where the body frame has its origin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,6 +82,8 @@ pub struct Body {
     pub frame: Frame,
     /// Factors of the parameters as functions of time.
     pub schedules: Schedules,
+    /// Factors of the five parameters as functions of place.
+    pub maps: Maps,
 }
 
 impl Body {
@@ -108,6 +110,7 @@ impl Body {
             internal: 0.0,
             frame: Frame::corrected(),
             schedules: Schedules::default(),
+            maps: Maps::default(),
         };
         body.recenter()?;
         body.validate()?;
@@ -203,6 +206,7 @@ impl Body {
         self.material.validate(n)?;
         self.mass.validate("mass", n, Bound::AtLeast(0.0))?;
         self.damping.validate("damping", n, Bound::AtLeast(0.0))?;
+        self.maps.validate()?;
         finite_at_least("internal damping", 0.0, "at least 0", self.internal)?;
         finite_at_least("spacing", f64::MIN_POSITIVE, "above 0", self.spacing)?;
         self.weights()?;

@@ -57,7 +57,7 @@ impl ModeOfMotion {
 /// contact   ω = √(k/μ),   k: stiffness of penalty walls
 /// ```
 ///
-/// Parameters are those of the time the snake stands at. Modes are exact where γ/μ is the same at every
+/// Parameters are those of the time the snake stands at (and of the place, where a state is given). Modes are exact where γ/μ is the same at every
 /// node, and of first order in its differences otherwise. O(n log n) for a closed curve of equal
 /// nodes, O(n³) for others up to 400 nodes, and only the outermost modes beyond: O(n).
 #[derive(Debug, Clone, PartialEq)]
@@ -83,9 +83,25 @@ pub struct Certificate {
 
 impl Certificate {
     /// Ask a snake. With a state, the picture's slope is taken at its nodes; without, it is the
-    /// steepest anywhere in the picture, O(pixels).
+    /// steepest anywhere in the picture, O(pixels), and parameters that change with place are those that ask for the
+    /// shortest steps.
     #[must_use]
     pub fn of(snake: &Snake, state: Option<&State>) -> Self {
+        let hardest = snake.at_its_hardest().filter(|_| state.is_none());
+        let Some([damped, light]) = hardest else {
+            return Self::as_it_is(snake, state);
+        };
+        let (mut one, other) = (Self::as_it_is(&damped, None), Self::as_it_is(&light, None));
+        for ((_, limit), (_, other)) in one.steps.iter_mut().zip(other.steps) {
+            *limit = match (*limit, other) {
+                (Some(a), Some(b)) => Some(a.min(b)),
+                (a, b) => a.or(b),
+            };
+        }
+        one
+    }
+
+    fn as_it_is(snake: &Snake, state: Option<&State>) -> Self {
         let least = free(snake, snake.mass()).fold(f64::INFINITY, f64::min);
         let frequency = |stiffness: f64| (stiffness / least).sqrt();
         let pull = felt(snake, state, |_| true);
@@ -135,6 +151,15 @@ impl Certificate {
     /// As [`Certificate::of`] without a state, for whoever needs no more: O(n), and O(pixels).
     #[must_use]
     pub fn limit(snake: &Snake, scheme: Scheme) -> Option<Limit> {
+        let Some(hardest) = snake.at_its_hardest() else {
+            return Self::limit_as_it_is(snake, scheme);
+        };
+        let limits = hardest.map(|snake| Self::limit_as_it_is(&snake, scheme));
+        let all = limits.into_iter().flatten();
+        all.min_by(|a, b| a.dt.total_cmp(&b.dt))
+    }
+
+    fn limit_as_it_is(snake: &Snake, scheme: Scheme) -> Option<Limit> {
         let own = Limit::of(scheme, snake);
         let implicit = scheme == Scheme::LinearlyImplicit;
         let pull = felt(snake, None, |acting| !implicit || acting.couples());

@@ -197,9 +197,8 @@ impl Crowd {
         for (member, (snake, state)) in snakes.into_iter().enumerate() {
             // sub-steps stay below the limit by themselves
             let force = timing.force || timing.tolerance.is_some();
-            timing
-                .scheme
-                .check(&snake, timing.dt, force)
+            snake
+                .check_step(timing.scheme, timing.dt, force)
                 .map_err(|error| CrowdError::Scheme { member, error })?;
             crowd.join(snake, State { t, ..state })?;
         }

@@ -9,6 +9,7 @@ use integrator::{State, System};
 
 use crate::certificate::modes;
 use crate::error::finite_at_least;
+use crate::renewal::Renewal;
 use crate::{Snake, SnakeError};
 
 /// A rule that chooses the damping of a snake.
@@ -90,22 +91,6 @@ impl FromStr for Damping {
     }
 }
 
-/// Local damping that is chosen again and again.
-#[derive(Debug, Clone)]
-pub(crate) struct Renewal {
-    every: f64,
-    next: f64,
-    /// Where the nodes were last seen.
-    x: Vec<DVec2>,
-}
-
-impl Renewal {
-    /// The nodes are here now.
-    pub(crate) fn see(&mut self, x: &[DVec2]) {
-        self.x.copy_from_slice(x);
-    }
-}
-
 impl Snake {
     /// Let a rule choose the damping, for the snake as it is at `state`.
     ///
@@ -123,6 +108,7 @@ impl Snake {
                 got: state.len(),
             });
         }
+        self.bring(state.t, &state.x);
         let mut body = self.body.clone();
         let mut renewal = None;
         match rule {
@@ -134,17 +120,13 @@ impl Snake {
             Damping::Renewed(every) => {
                 finite_at_least("renewal", f64::MIN_POSITIVE, "above 0", every)?;
                 body.damping = self.local_damping(state.t, &state.x)?;
-                renewal = Some(Renewal {
-                    every,
-                    next: state.t + every,
-                    x: state.x.clone(),
-                });
+                renewal = Some(Renewal::every(every, state.t + every));
             }
             Damping::Internal(beta) => body.internal = beta,
             Damping::InternalMode(mode) => body.internal = 2.0 / self.frequency(mode)?,
         }
         if matches!(rule, Damping::Internal(_) | Damping::InternalMode(_)) {
-            renewal = self.renewal.take();
+            renewal = self.renewal;
         }
         self.set_body(body)?;
         self.renewal = renewal;
@@ -179,22 +161,13 @@ impl Snake {
     }
 
     /// Choose the damping again if it is time; true if it was.
-    pub(crate) fn renew(&mut self, t: f64) -> bool {
-        let Some(mut renewal) = self.renewal.take() else {
-            return false;
-        };
-        let due = t >= renewal.next;
-        if due {
-            // counted from the one that was due, so that steps of any length keep the pace
-            let missed = ((t - renewal.next) / renewal.every).floor();
-            renewal.next += (missed + 1.0) * renewal.every;
-            // what was accepted at the start is accepted again
-            if let Ok(damping) = self.local_damping(t, &renewal.x) {
-                self.damping = damping.scaled(self.factors[4]).to_vec(self.len());
-                self.body.damping = damping;
-            }
+    pub(crate) fn renew(&mut self, t: f64, x: &[DVec2]) -> bool {
+        let due = self.renewal.as_mut().is_some_and(|renewal| renewal.meet(t));
+        // what was accepted at the start is accepted again
+        if due && let Ok(damping) = self.local_damping(t, x) {
+            self.damping = self.factors.times(4, &damping).to_vec(self.len());
+            self.body.damping = damping;
         }
-        self.renewal = Some(renewal);
         due
     }
 }

@@ -36,7 +36,7 @@ pub struct Energies {
     /// Minus what the scheme's own algebra has put in since the run began, where it is known
     /// ([`Ledger::under`](crate::Ledger::under)).
     pub scheme: f64,
-    /// Minus what schedules of parameters have put in since the run began.
+    /// Minus what schedules and maps of parameters have put in since the run began.
     pub parameters: f64,
     /// Minus what changes of the snake and its world by hand have put in since the run began, and what
     /// was booked of forces that are gone.

@@ -1,6 +1,6 @@
 //! Internal damping of a snake: what it takes from bending and stretching, and how fast.
 
-use elastic::{InternalDamping, Material};
+use elastic::{InternalDamping, Material, Profile};
 use glam::DVec2;
 use integrator::State;
 
@@ -14,6 +14,8 @@ use crate::{Body, Snake, SnakeError};
 #[derive(Debug, Clone)]
 pub(crate) struct Inner {
     damper: Material,
+    /// Masses up to a factor that all share.
+    mass: Profile,
     bound: f64,
     seen: Vec<DVec2>,
     force: Vec<DVec2>,
@@ -21,18 +23,23 @@ pub(crate) struct Inner {
 
 impl Inner {
     /// None for a body without.
-    pub(crate) fn new(body: &Body, material: &Material) -> Result<Option<Self>, SnakeError> {
+    pub(crate) fn new(
+        body: &Body,
+        mass: Profile,
+        material: &Material,
+    ) -> Result<Option<Self>, SnakeError> {
         if body.internal <= 0.0 {
             return Ok(None);
         }
         let n = body.len();
         let damper = material.damper(body.internal);
         let rows = elastic::greatest_stiffness(body.topology, &damper, body.spacing, n)?;
-        let rate = |i: usize| rows[i] / body.mass.at(i);
+        let rate = |i: usize| rows[i] / mass.at(i);
         let fastest = (0..n).map(rate).fold(0.0, f64::max);
-        let heaviest = (0..n).map(|i| body.mass.at(i)).fold(0.0, f64::max);
+        let heaviest = (0..n).map(|i| mass.at(i)).fold(0.0, f64::max);
         Ok(Some(Self {
             damper,
+            mass,
             bound: fastest * heaviest,
             seen: vec![DVec2::ZERO; n],
             force: vec![DVec2::ZERO; n],
@@ -49,7 +56,7 @@ impl Inner {
             topology: body.topology,
             damper: &self.damper,
             // the same factor at every node drops out
-            mass: &body.mass,
+            mass: &self.mass,
             spacing: body.spacing,
         };
         damping.force(x, v, &mut self.seen, &mut self.force);

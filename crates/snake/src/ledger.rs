@@ -5,6 +5,7 @@ use integrator::{Fault, Scheme, Start, State, System};
 
 use crate::account::Touched;
 use crate::algebra::{Algebra, Booked};
+use crate::factors::Factors;
 use crate::{Energies, Snake};
 
 /// Follows a run and keeps account of what has no potential.
@@ -38,6 +39,8 @@ pub struct Ledger {
     /// The scheme whose algebra is known, and what it has used at the last state.
     algebra: Option<Algebra>,
     middle: State,
+    /// What parameters were multiplied by at the last state.
+    factors: Factors,
     force: Vec<DVec2>,
     halfway: Vec<DVec2>,
 }
@@ -60,6 +63,7 @@ impl Ledger {
     /// The fault of a force that has no value at a node.
     pub fn begin(snake: &mut Snake, state: &State) -> Result<Self, Fault> {
         snake.keep_account();
+        snake.bring(state.t, &state.x);
         let n = state.len();
         Ok(Self {
             before: state.clone(),
@@ -75,6 +79,7 @@ impl Ledger {
             upkeep: 0.0,
             algebra: None,
             middle: state.clone(),
+            factors: snake.factors_at(state.t, &state.x),
             force: vec![DVec2::ZERO; n],
             halfway: vec![DVec2::ZERO; n],
         })
@@ -113,6 +118,7 @@ impl Ledger {
             // chosen since then by the snake itself
             was.body.damping.clone_from(&snake.body.damping);
         }
+        was.keep_up_with(snake);
         was.account = snake.account.take();
         snake.keep_account();
         self.steps(&mut was, state)?;
@@ -135,6 +141,9 @@ impl Ledger {
         touched: Option<Touched>,
     ) -> Result<(), Fault> {
         self.stop(snake)?;
+        snake.bring(state.t, &state.x);
+        let factors = snake.factors_at(state.t, &state.x);
+        let before = std::mem::replace(&mut self.factors, factors);
         if let Some(mut algebra) = self.algebra.take() {
             let booked = self.by_algebra(&mut algebra, snake, state, touched);
             self.algebra = Some(algebra);
@@ -148,7 +157,7 @@ impl Ledger {
         self.contact += touched.map_or(0.0, |touched| touched.lost);
         self.interpolate(state, dt);
         let way = [&self.before, &self.middle, state].map(|state| (&state.x[..], &state.v[..]));
-        self.parameters -= snake.put_in((self.before.t, state.t), way);
+        self.parameters -= snake.put_in((&before, &self.factors), way, None);
         let loss = |state: &State| snake.loss(state);
         let (before, after) = (self.rate, loss(state));
         self.damping += h * if smooth {
@@ -160,7 +169,8 @@ impl Ledger {
         if !snake.body().frame.reaction {
             let mut total = 0.0;
             for (weight, state) in [(1.0, &self.before), (4.0, &self.middle), (1.0, state)] {
-                snake.frame_force(state.t, &state.x, &mut self.force);
+                let factors = snake.factors_at(state.t, &state.x);
+                snake.frame_force(&factors, &state.x, &mut self.force);
                 total += weight * power(&self.force, &state.v);
             }
             self.frame -= h * dt / 6.0 * total;
@@ -249,6 +259,7 @@ impl Ledger {
     /// Book the change of the snake that happened at the last state.
     fn change(&mut self, snake: &mut Snake) -> Result<(), Fault> {
         let mut was = self.was.clone();
+        was.keep_up_with(snake);
         let sum = self.energies(&mut was, &self.before).total();
         let mut works = vec![Some(0.0); was.world().forces.len()];
         for booking in &self.bookings {
@@ -313,6 +324,8 @@ impl Ledger {
     pub fn resume(&mut self, snake: &mut Snake, state: &State) -> Result<(), Fault> {
         let n = state.len();
         snake.keep_account();
+        snake.bring(state.t, &state.x);
+        self.factors = snake.factors_at(state.t, &state.x);
         self.before.clone_from(state);
         self.middle.clone_from(state);
         self.force.resize(n, DVec2::ZERO);

@@ -45,12 +45,15 @@ mod crowd;
 mod damping;
 mod energy;
 mod error;
+mod factors;
 mod force;
 mod hand;
 mod inner;
 mod ledger;
+mod maps;
 mod pace;
 mod parameters;
+mod renewal;
 mod rest;
 mod run;
 mod schedule;
@@ -75,6 +78,7 @@ pub use force::{
     Sampling, SignedEdgeForce, Spring, Turned,
 };
 pub use ledger::Ledger;
+pub use maps::Maps;
 pub use pace::Pace;
 pub use rest::Rest;
 pub use run::{Outcome, Until, run};

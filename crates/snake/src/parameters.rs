@@ -1,29 +1,18 @@
-//! From a body and the factors of its schedules to what the schemes ask for.
+//! From a body and the factors of its schedules and maps to what the schemes ask for.
 
 use banded::Operator;
 use elastic::{End, Material, Topology};
 
-use crate::schedule::Factors;
+use crate::factors::Factors;
 use crate::{Body, Center, SnakeError};
 
-/// The parameters of `body` times the six factors.
-pub(crate) fn scaled(
-    body: &Body,
-    [tether, tension, rigidity, mass, damping, higher]: Factors,
-) -> Parameters {
+/// The parameters of `body` times the five factors.
+pub(crate) fn scaled(body: &Body, factors: &Factors) -> Parameters {
     let n = body.len();
-    let material = Material {
-        tether: body.material.tether.scaled(tether),
-        tension: body.material.tension.scaled(tension),
-        rigidity: body.material.rigidity.scaled(rigidity),
-        higher: (body.material.higher.iter())
-            .map(|weight| weight.scaled(higher))
-            .collect(),
-    };
     (
-        material,
-        body.mass.scaled(mass).to_vec(n),
-        body.damping.scaled(damping).to_vec(n),
+        factors.material(&body.material),
+        factors.times(3, &body.mass).to_vec(n),
+        factors.times(4, &body.damping).to_vec(n),
     )
 }
 

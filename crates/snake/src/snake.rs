@@ -6,10 +6,10 @@ use glam::{DMat2, DVec2};
 use integrator::{Fault, Meeting, State, System, Touch};
 
 use crate::account::Account;
-use crate::damping::Renewal;
+use crate::factors::Factors;
 use crate::inner::Inner;
 use crate::parameters::{operator, pushes, scaled};
-use crate::schedule::Factors;
+use crate::renewal::Renewal;
 use crate::turn::TurningRest;
 use crate::{Acting, Body, Center, Curve, SnakeError, Wall, WallLaw, World};
 
@@ -25,7 +25,7 @@ pub struct Snake {
     /// Nodes that a hand holds, besides those of the ends.
     pub(crate) grasped: Vec<bool>,
     /// Whether `−K e` has a sum, so that the frame's reaction is more than rounding.
-    pushes: bool,
+    pub(crate) pushes: bool,
     /// The parameters as they are at the time last asked for.
     pub(crate) material: Material,
     pub(crate) mass: Vec<f64>,
@@ -38,6 +38,9 @@ pub struct Snake {
     pub(crate) inner: Option<Inner>,
     /// Damping that is chosen again and again.
     pub(crate) renewal: Option<Renewal>,
+    /// When maps are looked at again, and when and where that was done last.
+    pub(crate) look: Renewal,
+    pub(crate) stood: Option<(f64, Vec<DVec2>)>,
     /// Nodes that slide, each along its line.
     pub(crate) rails: Vec<(usize, outline::Rail)>,
     pub(crate) deformation: Vec<DVec2>,
@@ -53,7 +56,8 @@ pub struct Snake {
 }
 
 impl Snake {
-    /// A snake; its schedules stand at time 0.
+    /// A snake; its schedules stand at time 0. Its maps stand at the factors that ask for the shortest steps until a
+    /// scheme says where the nodes are.
     ///
     /// # Errors
     ///
@@ -64,16 +68,22 @@ impl Snake {
         let n = body.len();
         let weights = body.weights()?;
         let held = body.topology.held(n);
-        let factors = body.schedules.at(0.0);
-        let (material, mass, damping) = scaled(&body, factors);
+        let places = (!body.maps.is_empty()).then(|| Box::new(body.maps.hardest(n, true)));
+        let factors = Factors {
+            common: body.schedules.at(0.0),
+            places,
+        };
+        let (material, mass, damping) = scaled(&body, &factors);
         let stiffness = operator(&body, &material, &weights, &held)?;
         let pushes = pushes(&body, &material);
-        let turning = TurningRest::new(&body, &weights, factors);
-        let inner = Inner::new(&body, &material)?;
+        let turning = TurningRest::new(&body, &weights, &factors);
+        let inner = Inner::new(&body, factors.by_place().times(3, &body.mass), &material)?;
         Ok(Self {
             turning,
             inner,
             renewal: None,
+            look: Renewal::every(body.maps.every, f64::NEG_INFINITY),
+            stood: None,
             rails: Vec::new(),
             any_held: held.contains(&true),
             pushes,
@@ -226,6 +236,9 @@ impl Snake {
         (new.changes, new.asked) = (self.changes, self.asked);
         new.grasped.clone_from(&self.grasped);
         new.rails.clone_from(&self.rails);
+        if let Some((t, x)) = &self.stood {
+            new.stand(*t, x);
+        }
         new.hold_again()?;
         new.note();
         *self = new;
@@ -247,7 +260,7 @@ impl Snake {
         elastic::validate_nodes(&rest, self.body.topology)?;
         self.body.rest = rest;
         self.body.recenter()?;
-        self.turning = TurningRest::new(&self.body, &self.weights, self.factors);
+        self.turning = TurningRest::new(&self.body, &self.weights, &self.factors);
         self.note_quietly();
         Ok(())
     }
@@ -330,29 +343,14 @@ impl System for Snake {
         &self.stiffness
     }
 
-    fn advance(&mut self, t: f64) -> bool {
-        let changed = std::mem::take(&mut self.changed) | self.renew(t);
-        if self.body.schedules.is_empty() {
-            return changed;
-        }
-        let factors = self.body.schedules.at(t);
-        let same = factors
-            .iter()
-            .zip(&self.factors)
-            .all(|(a, b)| a.to_bits() == b.to_bits());
-        if same {
-            return changed;
-        }
-        let (material, mass, damping) = scaled(&self.body, factors);
-        // the same profiles passed with other factors at the door, so this cannot be refused
-        if let Ok(stiffness) = operator(&self.body, &material, &self.weights, &self.held) {
-            self.stiffness = stiffness;
-        }
-        self.pushes = pushes(&self.body, &material);
-        self.turning = TurningRest::new(&self.body, &self.weights, factors);
-        self.inner = Inner::new(&self.body, &material).unwrap_or_default();
-        (self.material, self.mass, self.damping, self.factors) = (material, mass, damping, factors);
-        true
+    fn advance(&mut self, t: f64, x: &[DVec2]) -> bool {
+        let changed = std::mem::take(&mut self.changed);
+        let stands = self.stand(t, x);
+        changed | stands | self.renew(t, x)
+    }
+
+    fn depends_on_place(&self) -> bool {
+        !self.body.maps.is_empty() || self.renewal.is_some()
     }
 
     fn elastic(&mut self, x: &[DVec2], force: &mut [DVec2]) {
@@ -397,15 +395,11 @@ impl System for Snake {
         self.add_turn(x, force);
         self.add_inner(x, v, force);
         self.push_of_rails(x, &held, force);
-        if let Some(renewal) = &mut self.renewal {
-            renewal.see(x);
-        }
         Ok(())
     }
 
     fn external_is_constant(&self) -> bool {
-        let still = self.turning.is_none() && self.inner.is_none() && self.renewal.is_none();
-        let still = still && self.rails.is_empty();
+        let still = self.turning.is_none() && self.inner.is_none() && self.rails.is_empty();
         still
             && self.world.forces.iter().all(Acting::is_constant)
             && !self.world.walls.iter().any(Wall::is_spring)

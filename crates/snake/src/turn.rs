@@ -6,6 +6,7 @@ use std::str::FromStr;
 use elastic::{Material, Profile};
 use glam::DVec2;
 
+use crate::factors;
 use crate::schedule::Factors;
 use crate::{Body, SnakeError};
 
@@ -76,17 +77,22 @@ pub(crate) struct TurningRest {
 
 impl TurningRest {
     /// None for a rest shape that keeps its direction.
-    pub(crate) fn new(body: &Body, weights: &[f64], factors: Factors) -> Option<Self> {
+    pub(crate) fn new(
+        body: &Body,
+        weights: &[f64],
+        factors: &factors::Factors,
+    ) -> Option<Self> {
         if body.frame.turn == Turn::None {
             return None;
         }
         let none = || Profile::Uniform(0.0);
-        let own = &body.material;
+        let own = factors.by_place().material(&body.material);
         let (tether, tension, rigidity) = (
             own.tether.clone(),
             own.tension.clone(),
             own.rigidity.clone(),
         );
+        let factors = factors.common;
         let alone = |tether, tension, rigidity, higher| {
             let material = Material {
                 tether,

@@ -98,7 +98,7 @@ impl Turning {
     ///
     /// # Errors
     ///
-    /// Refused: nodes that are held, walls other than penalty walls, schedules, damping that is chosen
+    /// Refused: nodes that are held, walls other than penalty walls, schedules, maps, damping that is chosen
     /// again and again, a frame without reaction, a node without mass, a body without elasticity, which
     /// has no shape to turn.
     pub fn new(snake: &Snake) -> Result<Self, SnakeError> {
@@ -111,7 +111,8 @@ impl Turning {
         if snake.world().walls.iter().any(hard) {
             return refuse("walls that are penalty walls");
         }
-        if !snake.body().schedules.is_empty() || snake.renewal.is_some() {
+        let body = snake.body();
+        if !(body.schedules.is_empty() && body.maps.is_empty()) || snake.renewal.is_some() {
             return refuse("parameters that stay the same");
         }
         if !snake.body().frame.reaction {

@@ -465,8 +465,8 @@ fn a_schedule_changes_the_body_and_its_operator() {
     body.material = Material::uniform(1.0, 2.0, 3.0);
     body.schedules.tension = Some(Schedule::new(vec![(0.0, 1.0), (1.0, 3.0)]).unwrap());
     let mut snake = Snake::new(body.clone(), World::default()).unwrap();
-    assert!(!snake.advance(0.0));
-    assert!(snake.advance(1.0));
+    assert!(!snake.advance(0.0, &nodes));
+    assert!(snake.advance(1.0, &nodes));
     body.schedules.tension = None;
     body.material = Material::uniform(1.0, 6.0, 3.0);
     let constant = Snake::new(body, World::default()).unwrap();

@@ -5,7 +5,7 @@ use std::path::Path;
 use elastic::{Material, Profile, SpacingRule};
 use glam::DVec2;
 use integrator::State;
-use snake::{Body, Damping, Frame, Schedule, Schedules, Snake, SnakeError, Term};
+use snake::{Body, Damping, Frame, Maps, Schedule, Schedules, Snake, SnakeError, Term};
 
 use super::shape::{self, nodes, topology};
 use super::{Rules, number, refused};
@@ -182,6 +182,7 @@ pub(super) fn body(text: &SceneText, rules: Rules, folder: &Path) -> Result<Body
         },
         frame,
         schedules: schedules(text)?,
+        maps: Maps::default(),
     };
     body.validate().map_err(|e| refused(key, &e))?;
     body.recenter().map_err(|e| refused(key, &e))?;

@@ -1,0 +1,234 @@
+//! What the parameters of a snake are multiplied by, at a time and place.
+
+use elastic::{Material, Profile};
+use glam::DVec2;
+use integrator::{Scheme, SchemeError};
+
+use crate::Snake;
+use crate::inner::Inner;
+use crate::maps::Places;
+use crate::parameters::{operator, pushes, scaled};
+use crate::schedule;
+use crate::turn::TurningRest;
+
+/// Factors of ω₀, ω₁, ω₂, μ, γ and all weights above.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Factors {
+    /// Of all nodes: the schedules'.
+    pub(crate) common: schedule::Factors,
+    /// Of each node: the maps'.
+    pub(crate) places: Option<Box<Places>>,
+}
+
+fn equal(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+}
+
+impl Factors {
+    /// Whether one of the parameters `which` is multiplied by other factors in `other`.
+    fn differ(&self, other: &Self, which: std::ops::Range<usize>) -> bool {
+        which.into_iter().any(|k| {
+            let (one, two) = (self.place(k), other.place(k));
+            let same = match (one, two) {
+                (Some(one), Some(two)) => equal(one, two),
+                (None, None) => true,
+                _ => false,
+            };
+            !same || self.common[k].to_bits() != other.common[k].to_bits()
+        })
+    }
+
+    /// Those of the map of parameter `k`.
+    fn place(&self, k: usize) -> Option<&Vec<f64>> {
+        let places = self.places.as_ref()?;
+        places.get(k).and_then(Option::as_ref)
+    }
+
+    /// Whether both are the same to the last bit.
+    pub(crate) fn same(&self, other: &Self) -> bool {
+        !self.differ(other, 0..6)
+    }
+
+    /// The same without the schedules.
+    pub(crate) fn by_place(&self) -> Self {
+        Self {
+            common: [1.0; 6],
+            places: self.places.clone(),
+        }
+    }
+
+    /// Halfway between two, the factors of a parameter with a map taken as a whole; of the others they are `common`.
+    fn between(&self, other: &Self, common: schedule::Factors) -> Self {
+        let mut middle = Self {
+            common,
+            places: None,
+        };
+        if let (Some(one), Some(two)) = (&self.places, &other.places) {
+            let mut places: Places = Default::default();
+            for k in 0..5 {
+                if let (Some(a), Some(b)) = (&one[k], &two[k]) {
+                    let (s, t) = (self.common[k], other.common[k]);
+                    let mean = a.iter().zip(b).map(|(a, b)| 0.5 * (s * a + t * b));
+                    places[k] = Some(mean.collect());
+                    middle.common[k] = 1.0;
+                }
+            }
+            middle.places = Some(Box::new(places));
+        }
+        middle
+    }
+
+    /// A profile times the factors of parameter `k`. What is the same at every node stays one number.
+    pub(crate) fn times(&self, k: usize, profile: &Profile) -> Profile {
+        let scaled = profile.scaled(self.common[k]);
+        let Some(place) = self.place(k) else {
+            return scaled;
+        };
+        let one = place.first().filter(|first| {
+            scaled.is_uniform() && place.iter().all(|f| f.to_bits() == first.to_bits())
+        });
+        match one {
+            Some(&factor) => scaled.scaled(factor),
+            None => {
+                let each = place.iter().enumerate();
+                Profile::PerNode(each.map(|(i, factor)| scaled.at(i) * factor).collect())
+            }
+        }
+    }
+}
+
+impl Factors {
+    /// A material times its factors.
+    pub(crate) fn material(&self, material: &Material) -> Material {
+        Material {
+            tether: self.times(0, &material.tether),
+            tension: self.times(1, &material.tension),
+            rigidity: self.times(2, &material.rigidity),
+            higher: (material.higher.iter())
+                .map(|weight| self.times(5, weight))
+                .collect(),
+        }
+    }
+}
+
+impl Snake {
+    /// The factors at time `t` for nodes at `x`.
+    pub(crate) fn factors_at(&self, t: f64, x: &[DVec2]) -> Factors {
+        let maps = &self.body.maps;
+        let places = if maps.is_empty() {
+            None
+        } else if self.look.is_due(t) {
+            Some(Box::new(maps.at(x, self.body.topology)))
+        } else {
+            self.factors.places.clone()
+        };
+        Factors {
+            common: self.body.schedules.at(t),
+            places,
+        }
+    }
+
+    /// The factors halfway between those of two moments.
+    pub(crate) fn halfway(&self, t: f64, one: &Factors, two: &Factors) -> Factors {
+        one.between(two, self.body.schedules.at(t))
+    }
+
+    /// Let the parameters be those at time `t` for nodes at `x`; true if any changed.
+    pub(crate) fn stand(&mut self, t: f64, x: &[DVec2]) -> bool {
+        if self.body.schedules.is_empty() && self.body.maps.is_empty() {
+            return false;
+        }
+        let factors = self.factors_at(t, x);
+        if !self.body.maps.is_empty() {
+            self.look.meet(t);
+            self.stood = Some((t, x.to_vec()));
+        }
+        if factors.same(&self.factors) {
+            return false;
+        }
+        self.take(factors);
+        true
+    }
+
+    /// Let these be the factors.
+    pub(crate) fn take(&mut self, factors: Factors) {
+        let (material, mass, damping) = scaled(&self.body, &factors);
+        let elastic =
+            factors.differ(&self.factors, 0..3) || factors.differ(&self.factors, 5..6);
+        let heavier = factors.differ(&self.factors, 3..4);
+        (self.mass, self.damping) = (mass, damping);
+        if elastic {
+            // the same profiles passed with other factors at the door, so this cannot be refused
+            if let Ok(stiffness) = operator(&self.body, &material, &self.weights, &self.held) {
+                self.stiffness = stiffness;
+            }
+            self.pushes = pushes(&self.body, &material);
+            self.turning = TurningRest::new(&self.body, &self.weights, &factors);
+            self.material = material;
+        }
+        if (elastic || heavier) && self.inner.is_some() {
+            let mass = factors.by_place().times(3, &self.body.mass);
+            self.inner = Inner::new(&self.body, mass, &self.material).unwrap_or_default();
+        }
+        self.factors = factors;
+    }
+
+    /// The same for an account: the schemes are told at their next step.
+    pub(crate) fn bring(&mut self, t: f64, x: &[DVec2]) {
+        if !self.body.maps.is_empty() {
+            self.changed |= self.stand(t, x);
+        }
+    }
+
+    /// Have found the same as `other` in maps that are not looked at all the time.
+    pub(crate) fn keep_up_with(&mut self, other: &Self) {
+        if self.body.maps.every > 0.0 && other.body.maps.every > 0.0 {
+            self.look = other.look;
+            self.take(other.factors.clone());
+        }
+    }
+
+    /// Whether `scheme` can make steps of `dt` wherever the nodes may go, as [`Scheme::check`] says.
+    ///
+    /// # Errors
+    ///
+    /// As [`Scheme::check`].
+    pub fn check_step(&self, scheme: Scheme, dt: f64, force: bool) -> Result<(), SchemeError> {
+        match self.at_its_hardest() {
+            None => scheme.check(self, dt, force),
+            Some(hardest) => hardest
+                .iter()
+                .try_for_each(|snake| scheme.check(snake, dt, force)),
+        }
+    }
+
+    /// Where no node has been yet: the snake with the factors that ask for the shortest steps, once with the most
+    /// damping and once with the least. None where no parameter changes with place.
+    #[must_use]
+    pub fn at_its_hardest(&self) -> Option<[Self; 2]> {
+        if self.body.maps.is_empty() {
+            return None;
+        }
+        Some([true, false].map(|damped| {
+            let mut snake = self.clone();
+            snake.take(Factors {
+                common: self.factors.common,
+                places: Some(Box::new(self.body.maps.hardest(self.body.len(), damped))),
+            });
+            snake
+        }))
+    }
+
+    /// How the rest shape is turned at `x` under these factors, if it turns.
+    pub(crate) fn rotation_under(&self, factors: &Factors, x: &[DVec2]) -> Option<DVec2> {
+        let turning = self.turning.as_ref()?;
+        if factors.places.is_none() {
+            return Some(turning.rotation_at(x, factors.common));
+        }
+        if factors.same(&self.factors) {
+            return Some(turning.rotation(x));
+        }
+        let turning = TurningRest::new(&self.body, &self.weights, factors);
+        turning.map(|turning| turning.rotation(x))
+    }
+}
