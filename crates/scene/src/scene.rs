@@ -187,7 +187,14 @@ impl Scene {
     /// Largest stable step of the scene's scheme, picture left out (errata §7); `None` if any is.
     #[must_use]
     pub fn step_limit(&self) -> Option<f64> {
-        self.plan.scheme.step_limit(&self.snake)
+        let scheme = self.plan.scheme;
+        match self.snake.at_its_hardest() {
+            None => scheme.step_limit(&self.snake),
+            Some(hardest) => {
+                let limits = hardest.iter().filter_map(|snake| scheme.step_limit(snake));
+                limits.min_by(f64::total_cmp)
+            }
+        }
     }
 
     /// Whether the plan can be carried out: what [`Scene::run`] asks before the first step.
@@ -211,6 +218,14 @@ impl Scene {
             );
             return Err(SceneError::key("record.every", message));
         }
+        let maps = &self.snake.body().maps;
+        if !maps.is_empty() && matches!(plan.scheme, Scheme::Exact | Scheme::Etd2) {
+            let message = format!(
+                "{} finds all modes of the curve beforehand, and maps change them at every step; leapfrog or newmark would do",
+                plan.scheme.name()
+            );
+            return Err(SceneError::key("run.scheme", message));
+        }
         // before the limit, which is zero without mass
         if plan.scheme != Scheme::GradientFlow
             && let Some(node) = self
@@ -232,6 +247,10 @@ impl Scene {
             if self.company.is_some() && plan.each {
                 let message = "snakes that meet are written at times they share; a time between steps would do";
                 return Err(SceneError::key("run.output", message));
+            }
+            if maps.every > 0.0 {
+                let message = "steps that are tried and made again would look again as well; 0, at every step, would do";
+                return Err(SceneError::key("maps.every", message));
             }
             if plan.scheme == Scheme::Report {
                 let message = "the scheme report keeps one step: its velocity and its damping are differences over it, \

@@ -97,9 +97,9 @@ fn schedules(text: &SceneText) -> Result<Schedules, SceneError> {
 fn material(text: &SceneText, n: usize) -> Result<Material, SceneError> {
     let m = &text.material;
     let mut material = Material {
-        tether: profile("material.tether", &m.tether, n)?,
-        tension: profile("material.tension", &m.tension, n)?,
-        rigidity: profile("material.rigidity", &m.rigidity, n)?,
+        tether: profile("material.tether", &m.tether.profile, n)?,
+        tension: profile("material.tension", &m.tension.profile, n)?,
+        rigidity: profile("material.rigidity", &m.rigidity.profile, n)?,
         higher: (m.higher.iter())
             .map(|weight| profile("material.higher", weight, n))
             .collect::<Result<_, _>>()?,
@@ -171,9 +171,9 @@ pub(super) fn body(text: &SceneText, rules: Rules, folder: &Path) -> Result<Body
         rest,
         spacing,
         material: material(text, n)?,
-        mass: profile("densities.mass", &text.densities.mass, n)?,
+        mass: profile("densities.mass", &text.densities.mass.profile, n)?,
         damping: match &text.densities.damping {
-            DampingText::Given(given) => profile("densities.damping", given, n)?,
+            DampingText::Given(given) => profile("densities.damping", &given.profile, n)?,
             DampingText::Rule(_) => Profile::Uniform(0.0),
         },
         internal: match &text.densities.internal {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use snake::{Contact, Plastic, Snake, Upkeep};
 
-use super::{Rules, body, ends, number, refused, world};
+use super::{Rules, body, ends, map, number, refused, world};
 use crate::company::Company;
 use crate::file::{AlsoText, ContactText, SceneText, UpkeepText};
 use crate::limits::MOST_SNAKES;
@@ -36,7 +36,12 @@ pub(super) fn company(
             },
             other => other,
         };
-        let shape = body::body(&own, rules, folder).map_err(within)?;
+        let mut shape = body::body(&own, rules, folder).map_err(within)?;
+        shape.maps = if also.material.is_none() && also.densities.is_none() {
+            first.body().maps.clone()
+        } else {
+            map::maps(&own, picture, folder).map_err(within)?
+        };
         let start = body::start(&own, &shape, rules, folder).map_err(within)?;
         // the same forces, unless their weights are meant for another number of nodes or they know the curve
         let same = shape.len() == first.body().len()

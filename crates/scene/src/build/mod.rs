@@ -6,6 +6,7 @@ mod edge_field;
 mod ends;
 pub(crate) mod force;
 mod hand;
+mod map;
 pub(crate) mod number;
 mod plan;
 mod shape;
@@ -80,7 +81,7 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
     let rules = Rules::of(&text.rules);
     let plan = plan::plan(text, rules)?;
     let view = view(&text.view)?;
-    let body = body::body(text, rules, folder)?;
+    let mut body = body::body(text, rules, folder)?;
     let start = body::start(text, &body, rules, folder)?;
     let picture = text
         .picture
@@ -90,6 +91,7 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
     if let Some(picture) = &picture {
         world::inside(&start, picture, rules)?;
     }
+    body.maps = map::maps(text, picture.as_ref(), folder)?;
     let mut notes = Vec::new();
     let (world, field) = world::world(
         text,

@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Deserializer};
 
-use super::{EachRule, EndWord, EndsText, OpenClosed, RailText, Rule};
+use super::{EachRule, EndWord, EndsText, OpenClosed, ParameterText, RailText, Rule};
 
 /// A number, one number a node, or points along the curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,7 +118,7 @@ impl<'de> Deserialize<'de> for EndText {
 /// Damping: a profile, or the word for a rule that chooses it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum DampingText {
-    Given(ProfileText),
+    Given(ParameterText),
     Rule(String),
 }
 

@@ -7,6 +7,7 @@ mod company;
 mod force;
 mod forms;
 mod hand;
+mod map;
 
 use serde::Deserialize;
 
@@ -17,6 +18,7 @@ pub(crate) use forms::{
     StepText, TermText, TopologyText,
 };
 pub(crate) use hand::HandText;
+pub(crate) use map::{AwayText, MapText, ParameterText, SourceText};
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -53,6 +55,8 @@ pub(crate) struct SceneText {
     pub densities: DensitiesText,
     #[serde(default)]
     pub schedule: ScheduleText,
+    #[serde(default)]
+    pub maps: MapsText,
     #[serde(default)]
     pub world: WorldText,
     pub run: RunText,
@@ -303,9 +307,9 @@ pub(crate) struct SnakeText {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct MaterialText {
-    pub tether: ProfileText,
-    pub tension: ProfileText,
-    pub rigidity: ProfileText,
+    pub tether: ParameterText,
+    pub tension: ParameterText,
+    pub rigidity: ParameterText,
     /// Nodes at which the rigidity is 0.
     #[serde(default)]
     pub corners: Vec<usize>,
@@ -320,7 +324,7 @@ pub(crate) struct MaterialText {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct DensitiesText {
-    pub mass: ProfileText,
+    pub mass: ParameterText,
     pub damping: DampingText,
     /// Damping inside the body.
     pub internal: Option<InternalText>,
@@ -336,6 +340,15 @@ pub(crate) struct ScheduleText {
     pub mass: Option<Vec<[f64; 2]>>,
     pub damping: Option<Vec<[f64; 2]>>,
     pub higher: Option<Vec<[f64; 2]>>,
+}
+
+/// How often maps are looked at.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct MapsText {
+    /// Time between two looks; 0: at every step.
+    #[serde(default)]
+    pub every: f64,
 }
 
 #[derive(Debug, Clone, Default, Deserialize)]
