@@ -3,8 +3,8 @@
 use crate::Experiment;
 use crate::experiments::{
     angle, apple, atlas, ball, balloon, corners, curvature, damping, damping_rules, decomposition,
-    disc, ends, energy, force_field, forces, matrix, open_curves, orders, profiles, rest_traps,
-    signal, smoothing, soft, time_step, turned_picture, turning,
+    disc, ends, energy, force_field, forces, maps, matrix, open_curves, orders, profiles,
+    rest_traps, signal, smoothing, soft, time_step, turned_picture, turning,
 };
 
 /// Every experiment. A new one is added here and nowhere else.
@@ -24,6 +24,7 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &ends::ENDS_OF_A_STRIP,
     &corners::CORNERS,
     &profiles::PROFILES,
+    &maps::MAPS,
     &damping::DAMPING,
     &damping_rules::RULES_OF_DAMPING,
     &time_step::TIME_STEP,

@@ -50,6 +50,7 @@ scenes![
     "slope",
     "coarse-to-fine",
     "drowned-in-noise",
+    "gap-and-corners",
 ];
 
 const CONTOURS: [(&str, &str); 5] = [

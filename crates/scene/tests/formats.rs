@@ -75,8 +75,8 @@ plastic = { §plastic§ yields-at = 0.1, rate = 1.0 }
 [material]
 §material§
 tether = 0.1
-tension = 1.0
-rigidity = 1.0
+tension = { value = 1.0, low = 1.0, high = 0.5, map = §source§"edge" }
+rigidity = { value = 1.0, low = 1.0, high = 0.5, map = { §sources§ distance = { §away§ reach = 3.0 } } }
 [densities]
 §densities§
 mass = 1.0
@@ -84,6 +84,8 @@ damping = 0.1
 [schedule]
 §schedule§
 mass = [[0.0, 1.0]]
+[maps]
+§maps§
 [world]
 §world§
 border = §border§"stop"
@@ -123,7 +125,7 @@ fn marked(place: &str, by: &str) -> String {
 fn known(place: &str) -> Vec<String> {
     // a word of the wrong spelling before the right one, a key before the others
     let wrong = match place {
-        "rule" | "up" | "end" | "border" | "kind" => "\"zzz\" #",
+        "rule" | "up" | "end" | "border" | "kind" | "source" => "\"zzz\" #",
         "topology" | "frame" => "\"zzz\" #",
         "rail" => "{ zzz = 1 } } #",
         "road" => "road = { zzz = 1 } } #",
@@ -133,15 +135,15 @@ fn known(place: &str) -> Vec<String> {
         "terms" => "{ zzz = 1 } #",
         "term" => "{ terms = [\"zzz\"] } #",
         "root" | "view" | "picture" | "drawn" | "field" | "snake" | "material" | "densities"
-        | "schedule" | "world" | "wall" | "run" | "record" | "also" | "contact" | "upkeep" => {
-            "zzz = 1"
-        }
+        | "schedule" | "maps" | "world" | "wall" | "run" | "record" | "also" | "contact"
+        | "upkeep" => "zzz = 1",
         "region" | "shape" | "law" => "zzz = 1 } #",
+        "sources" => "zzz = 1 } } #",
         _ => "zzz = 1,",
     };
     // within an inline table the rest of the line has to go with its end put back
     let wrong = match place {
-        "rule" | "end" => wrong.replace(" #", " } #"),
+        "rule" | "end" | "source" => wrong.replace(" #", " } #"),
         _ => wrong.to_owned(),
     };
     let text = marked(place, &wrong);
@@ -177,6 +179,11 @@ fn known_of(kind: &str) -> Vec<String> {
 
 const PLACES: [&str; 43] = [
     "hand",
+const PLACES: [&str; 46] = [
+    "maps",
+    "source",
+    "sources",
+    "away",
     "tips",
     "tip-ends",
     "road",

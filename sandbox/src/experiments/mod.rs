@@ -16,6 +16,7 @@ pub(crate) mod energy;
 pub(crate) mod force_field;
 pub(crate) mod forces;
 pub(crate) mod integrators;
+pub(crate) mod maps;
 pub(crate) mod matrix;
 mod motion;
 pub(crate) mod open_curves;
