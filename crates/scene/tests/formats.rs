@@ -76,7 +76,7 @@ plastic = { §plastic§ yields-at = 0.1, rate = 1.0 }
 §material§
 tether = 0.1
 tension = { value = 1.0, low = 1.0, high = 0.5, map = §source§"edge" }
-rigidity = { value = 1.0, low = 1.0, high = 0.5, map = { §sources§ distance = { §away§ reach = 3.0 } } }
+rigidity = { §mapped§ value = 1.0, low = 1.0, high = 0.5, map = { §sources§ distance = { §away§ reach = 3.0 } } }
 [densities]
 §densities§
 mass = 1.0
@@ -177,9 +177,9 @@ fn known_of(kind: &str) -> Vec<String> {
     list.split(", ").map(str::to_owned).collect()
 }
 
-const PLACES: [&str; 43] = [
+const PLACES: [&str; 48] = [
+    "mapped",
     "hand",
-const PLACES: [&str; 46] = [
     "maps",
     "source",
     "sources",

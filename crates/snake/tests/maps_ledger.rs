@@ -172,7 +172,10 @@ fn the_account_closes_at_walls_in_a_turning_frame_and_with_inner_damping() {
         .with_gravity(DVec2::new(0.0, 2.0))
         .with_wall(floor(impact));
     let (open, energies) = gap(&body, &world, &start, Scheme::Leapfrog, 0.02);
-    assert!(energies.contact > 0.1 && open < 1e-12, "{open} {energies:?}");
+    assert!(
+        energies.contact > 0.1 && open < 1e-12,
+        "{open} {energies:?}"
+    );
     let mut inner = body.clone();
     inner.internal = 0.1;
     let (open, _) = gap(&inner, &World::default(), &start, Scheme::Leapfrog, 0.01);

@@ -97,6 +97,13 @@ impl<'de> Deserialize<'de> for ParameterText {
             let profile = inner(value)?;
             return Ok(Self { profile, map: None });
         };
+        const KEYS: [&str; 6] = ["value", "along", "map", "low", "high", "range"];
+        let mapped = KEYS[2..].iter().any(|key| table.contains_key(*key));
+        if let Some(other) = table.keys().find(|key| !KEYS.contains(&key.as_str()))
+            && mapped
+        {
+            return Err(serde::de::Error::unknown_field(other, &KEYS));
+        }
         let mut own = toml::Table::new();
         for key in ["map", "low", "high", "range"] {
             if let Some(value) = table.remove(key) {
