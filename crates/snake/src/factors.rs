@@ -153,8 +153,7 @@ impl Snake {
     /// Let these be the factors.
     pub(crate) fn take(&mut self, factors: Factors) {
         let (material, mass, damping) = scaled(&self.body, &factors);
-        let elastic =
-            factors.differ(&self.factors, 0..3) || factors.differ(&self.factors, 5..6);
+        let elastic = factors.differ(&self.factors, 0..3) || factors.differ(&self.factors, 5..6);
         let heavier = factors.differ(&self.factors, 3..4);
         (self.mass, self.damping) = (mass, damping);
         if elastic {

@@ -77,11 +77,7 @@ pub(crate) struct TurningRest {
 
 impl TurningRest {
     /// None for a rest shape that keeps its direction.
-    pub(crate) fn new(
-        body: &Body,
-        weights: &[f64],
-        factors: &factors::Factors,
-    ) -> Option<Self> {
+    pub(crate) fn new(body: &Body, weights: &[f64], factors: &factors::Factors) -> Option<Self> {
         if body.frame.turn == Turn::None {
             return None;
         }

@@ -235,6 +235,7 @@ fn what_maps_make_of_the_material_is_the_profile_made_by_hand() {
         tether: each(&|i| 0.05 * slow(start.x[i], &bumps)),
         tension: each(&|i| 3.0 * slow(0.5 * (start.x[i] + start.x[(i + 1) % n]), &bumps)),
         rigidity: each(&|i| 2.0 * slow(start.x[i], &turned)),
+        higher: Vec::new(),
     };
     let mut snake = Snake::new(body, World::default()).unwrap();
     assert!(snake.advance(0.0, &start.x));
