@@ -262,7 +262,7 @@ fn keep_account(record: &mut Record, run: &scene::Record) {
     let strays = energies()
         .map(|e| (e.total() - first).abs())
         .fold(0.0, f64::max);
-    let put_in = energies().last().map_or(0.0, |e| -e.parameters);
+    let put_in = energies().next_back().map_or(0.0, |e| -e.parameters);
     record.note(
         "sum of energies: strays by",
         strays / largest,
