@@ -237,7 +237,7 @@ impl Crowd {
     }
 
     /// Whether any member has or had elastic terms above the second order, which have a column of their own in
-    /// [`Energies::names_with`].
+    /// [`Energies::names_with`](crate::Energies::names_with).
     #[must_use]
     pub const fn orders(&self) -> bool {
         self.orders
