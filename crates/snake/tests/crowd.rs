@@ -319,16 +319,6 @@ fn re_spacing_keeps_mass_momentum_and_spin_and_books_its_energy() {
         upkeep,
     )
     .unwrap();
-    let mass = |crowd: &Crowd| {
-        let snake = &crowd.members()[0].snake;
-        snake.body().spacing
-            * snake
-                .body()
-                .mass
-                .to_vec(snake.body().len())
-                .iter()
-                .sum::<f64>()
-    };
     let (m, p, total) = (mass(&crowd), crowd.momentum(), crowd.energies().total());
     for _ in 0..2000 {
         crowd.step().unwrap();
@@ -393,6 +383,50 @@ fn a_curve_whose_nodes_have_come_closer_makes_its_steps_in_parts() {
     assert!((radius - fine).abs() < 1e-3 * fine, "{radius} {fine}");
 }
 
+/// Mass of all members.
+fn mass(crowd: &Crowd) -> f64 {
+    let each = crowd.members().iter().map(|member| {
+        let body = member.snake.body();
+        body.spacing * body.mass.to_vec(body.len()).iter().sum::<f64>()
+    });
+    each.sum()
+}
+
+#[test]
+fn what_is_left_of_two_curves_that_merge_keeps_its_mass_and_its_momentum() {
+    // drawn out to half as long again as at rest, of two masses, and deep in each other
+    let stretched = |center: DVec2, density: f64| {
+        let (mut body, state) = ball(center, 3.0, 60, DVec2::new(0.4, -0.2));
+        body.rest.iter_mut().for_each(|r| *r /= 1.5);
+        body.spacing /= 1.5;
+        body.mass = density.into();
+        free((body, state))
+    };
+    let snakes = vec![
+        stretched(DVec2::ZERO, 1.0),
+        stretched(DVec2::new(4.0, 0.0), 2.0),
+    ];
+    let upkeep = Upkeep {
+        every: 1,
+        merge: Some(0.5),
+        ..Upkeep::default()
+    };
+    let time = timing(Scheme::Leapfrog, 1e-3);
+    let mut crowd = Crowd::new(snakes, time, None, upkeep).unwrap();
+    let (m, p) = (mass(&crowd), crowd.momentum());
+    crowd.step().unwrap();
+    assert_eq!(crowd.members().len(), 1, "{:?}", crowd.events());
+    // each circle loses the arc that lies in the other, an angle of 2 acos(2/3) of it
+    let left = 1.0 - (2.0_f64 / 3.0).acos() / std::f64::consts::PI;
+    // the corner is met within an edge of 60
+    assert!(
+        (mass(&crowd) / (m * left) - 1.0).abs() < 0.03,
+        "{} {m}",
+        mass(&crowd) / m
+    );
+    assert!((crowd.momentum() / (p * left) - 1.0).abs().max_element() < 0.03);
+}
+
 #[test]
 fn an_outline_pinched_in_two_becomes_two() {
     let (body, state) = ball(DVec2::ZERO, 4.0, 60, DVec2::ZERO);
@@ -415,9 +449,22 @@ fn an_outline_pinched_in_two_becomes_two() {
         upkeep,
     )
     .unwrap();
+    let (before, mut last, mut loops) = (mass(&crowd), mass(&crowd), 0);
     for _ in 0..2000 {
         crowd.step().unwrap();
+        let cut = |event: &&snake::Event| matches!(event.kind, EventKind::LoopRemoved { .. });
+        let removed = crowd.events().iter().filter(cut).count();
+        let now = mass(&crowd);
+        // a loop takes its own along, and nothing else changes the mass
+        assert!(now < last * (1.0 + 1e-12), "{now} {last}");
+        assert!(
+            removed > loops || now > last * (1.0 - 1e-12),
+            "{now} {last}"
+        );
+        (last, loops) = (now, removed);
     }
+    // one where it was pinched, of 4 nodes of 60, and slivers
+    assert!(last > 0.85 * before, "{last} {before}");
     assert_eq!(crowd.members().len(), 2, "{:?}", crowd.events());
     for member in crowd.members() {
         assert!(elastic::signed_area(&member.state.x) > 0.5);

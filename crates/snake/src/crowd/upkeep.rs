@@ -391,10 +391,12 @@ impl Member {
         }
         body.rest = plan.draw(&old.rest)?;
         if totals == Totals::Handed {
+            // as much of the length that the whole has at rest as its rest shape has of the whole's
             let rule = elastic::SpacingRule::Closed;
-            let length = elastic::spacing(&body.rest, self.is_closed(), rule);
-            if length > 0.0 {
-                body.spacing = length;
+            let length = |rest: &[DVec2]| elastic::spacing(rest, self.is_closed(), rule);
+            let share = length(&body.rest) / length(&old.rest);
+            if share > 0.0 && share.is_finite() {
+                body.spacing = old.spacing * share;
             }
         }
         let density = old.mass.to_vec(n);
@@ -445,6 +447,16 @@ impl Member {
         let (a, b) = (self.snake.body(), other.snake.body());
         let mut body = a.clone();
         let (n, m) = (a.len(), b.len());
+        // mass and damping per length as it is, not as it was at rest: what is left of either curve keeps its own
+        let rule = elastic::SpacingRule::Closed;
+        let rate = |member: &Self| {
+            let present = elastic::spacing(&member.state.x, true, rule);
+            member.snake.body().spacing / present
+        };
+        let (one, two) = (rate(self), rate(other));
+        body.mass = a.mass.scaled(one);
+        body.damping = a.damping.scaled(one);
+        let (mass, damping) = (b.mass.scaled(two), b.damping.scaled(two));
         // an order that only one of them has weighs nothing in the other
         let mut other_higher = b.material.higher.clone();
         let orders = body.material.higher.len().max(other_higher.len());
@@ -454,8 +466,8 @@ impl Member {
             (&mut body.material.tether, &b.material.tether),
             (&mut body.material.tension, &b.material.tension),
             (&mut body.material.rigidity, &b.material.rigidity),
-            (&mut body.mass, &b.mass),
-            (&mut body.damping, &b.damping),
+            (&mut body.mass, &mass),
+            (&mut body.damping, &damping),
         ];
         let higher = body.material.higher.iter_mut().zip(&other_higher);
         for (profile, more) in lower.into_iter().chain(higher) {
@@ -465,6 +477,7 @@ impl Member {
             }
         }
         body.rest.clone_from(&state.x);
+        body.spacing = elastic::spacing(&state.x, true, rule);
         Ok(Renewed { body, state, plan })
     }
 
@@ -508,12 +521,17 @@ impl Member {
 }
 
 impl Renewed {
-    /// Let its present shape be its rest shape.
+    /// Let its present shape be its rest shape. Each node keeps its mass and its damping.
     fn forget(&mut self) -> Result<(), SnakeError> {
         let closed = self.body.topology.is_closed();
         self.body.rest.clone_from(&self.state.x);
         let rule = elastic::SpacingRule::Closed;
-        self.body.spacing = elastic::spacing(&self.state.x, closed, rule);
+        let spacing = elastic::spacing(&self.state.x, closed, rule);
+        // densities are per length at rest, which is another one now
+        let factor = self.body.spacing / spacing;
+        self.body.mass = self.body.mass.scaled(factor);
+        self.body.damping = self.body.damping.scaled(factor);
+        self.body.spacing = spacing;
         self.body.recenter()
     }
 }
