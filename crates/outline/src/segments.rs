@@ -97,7 +97,7 @@ pub(crate) fn push_curve(out: &mut Vec<Segment>, curve: usize, nodes: &[DVec2], 
 /// On which side of its curve a point lies, judged at the nearest point: +1 where the normal points, −1
 /// where the inside of a curve of positive area is, 0 on it.
 ///
-/// Exact, if `nearest` is the nearest of the whole curve: beside an edge the edge decides; beyond a node
+/// Exact, if `nearest` is the nearest of the whole curve up to rounding: beside an edge the edge decides; beyond a node
 /// the turn there does, since past a node that bulges out one is outside, past one that caves in inside.
 /// At a fold of no width the point is outside. Beyond a free end the line of the last edge decides.
 pub(crate) fn side(segments: &[Segment], k: u32, nearest: &Nearest, p: DVec2) -> f64 {
@@ -117,6 +117,13 @@ pub(crate) fn side(segments: &[Segment], k: u32, nearest: &Nearest, p: DVec2) ->
         return beside();
     }
     let (before, after) = (&segments[before as usize], &segments[after as usize]);
+    // on the same side of both lines the turn has no say: at a node that is nearly straight its sign is chance, and so is
+    // whether the nearest point is that node
+    let of = |segment: &Segment| -sign(orientation(segment.a, segment.b, p));
+    let (one, two) = (of(before), of(after));
+    if one * two > 0.0 {
+        return one;
+    }
     let turn = sign(orientation(before.a, before.b, after.b));
     if turn.abs() > 0.0 {
         turn

@@ -27,7 +27,9 @@ pub fn nearest_of(
     for &edge in edges {
         let segment = segment(edge);
         let nearest = segment.nearest(p);
-        if segment.a != segment.b && best.is_none_or(|(_, least)| nearest.squared < least.squared) {
+        // by the distance, as a whole curve is searched: squares tell apart what is equally far
+        let nearer = |least: Nearest| nearest.squared.sqrt() < least.squared.sqrt();
+        if segment.a != segment.b && best.is_none_or(|(_, least)| nearer(least)) {
             best = Some((edge, nearest));
         }
     }

@@ -62,6 +62,36 @@ fn a_ball_beside_a_ball_sees_its_nearest_edge_from_outside() {
 }
 
 #[test]
+fn beside_a_node_that_is_straight_but_for_rounding_the_outside_is_outside() {
+    // a stripe whose long sides lean, so that their nodes are on a line up to rounding, on either side of it
+    let along = DVec2::from_angle(0.7);
+    let side =
+        |from: DVec2, way: f64| (0..40).map(move |i| from + way * f64::from(i) * 0.089_546 * along);
+    let top = 39.0 * 0.089_546 * along - along.perp();
+    let stripe: Vec<DVec2> = side(DVec2::ZERO, 1.0)
+        .chain(side(top, -1.0))
+        .rev()
+        .collect();
+    assert!(twice_the_area(&stripe) > 0.0);
+    let mut neighbours = Neighbours::default();
+    neighbours.rebuild([(&stripe[..], true)], 1.0).unwrap();
+    let mut found = Vec::new();
+    for i in 1..39 {
+        for far in [1e-3, 0.098, 0.3] {
+            let p = f64::from(i) * 0.089_546 * along + far * along.perp();
+            neighbours.near_point(p, 0.5, &mut found);
+            keep_nearest(&mut found);
+            assert_eq!(found[0].side, 1.0, "node {i}, {far} px out");
+        }
+    }
+}
+
+fn twice_the_area(nodes: &[DVec2]) -> f64 {
+    let n = nodes.len();
+    (0..n).map(|i| nodes[i].perp_dot(nodes[(i + 1) % n])).sum()
+}
+
+#[test]
 fn a_node_that_has_gone_in_is_told_the_way_out() {
     let (a, b) = (
         circle(DVec2::ZERO, 10.0, 40),
