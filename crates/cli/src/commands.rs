@@ -206,6 +206,9 @@ fn go(scene: &mut Scene, output: &Output, flags: &Flags<'_>) -> Answer {
         say(pace);
     }
     let short = matches!(outcome, Outcome::Finished { .. }) && scene.plan.until.rest.is_some();
+    if short {
+        say("it was to come to rest and has not; more steps would do, or no key run.rest");
+    }
     Ok(if outcome.is_good() && !short {
         ExitCode::SUCCESS
     } else {

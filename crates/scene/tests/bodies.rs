@@ -285,7 +285,7 @@ fn ends_on_the_border_slide_along_it_to_the_edge() {
 fn the_third_order_closes_the_account_and_lowers_the_step_as_theory_says() {
     let energies = [
         ("[record]", "[record]\nenergies = true"),
-        ("time = 200.0\nrest = {}", "time = 20.0"),
+        ("time = 200.0", "time = 20.0"),
     ];
     let mut scene = changed("third-order", &energies).unwrap();
     let h = scene.snake.body().spacing;
@@ -331,7 +331,7 @@ fn the_third_order_closes_the_account_and_lowers_the_step_as_theory_says() {
 fn orders_above_the_second_go_with_all_that_a_body_does() {
     let base = [
         ("[record]", "[record]\nenergies = true"),
-        ("time = 200.0\nrest = {}", "time = 5.0"),
+        ("time = 200.0", "time = 5.0"),
     ];
     let strays = |more: &[(&str, &str)]| {
         let mut scene = changed("third-order", &[&base, more].concat()).unwrap();

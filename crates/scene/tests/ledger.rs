@@ -8,6 +8,7 @@
 use std::ops::ControlFlow;
 
 use scene::integrator::Scheme;
+use scene::snake::Outcome;
 use scene::{Frame, Recording, SCENES, Scene};
 
 /// What rounding may add in one step, some operations deep, as a share of the largest that all terms ever are together: places
@@ -53,6 +54,13 @@ fn the_account_of_energies_closes_on_every_scene_at_every_step_and_in_all() {
             ..Recording::default()
         };
         let record = scene.run(&mut |_| ControlFlow::Continue(())).unwrap();
+        // what is shipped ends as it says: at rest, or when its time is over
+        let over = matches!(record.outcome, Outcome::Finished { .. });
+        assert!(
+            record.outcome.is_good() && !(over && scene.plan.until.rest.is_some()),
+            "{name}: {}",
+            record.outcome
+        );
         let allowed = Allowed {
             scene: &scene,
             dt: scene.plan.dt,
