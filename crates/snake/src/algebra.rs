@@ -182,6 +182,10 @@ impl Algebra {
             })
             .collect();
         let here = Seen::at(snake, to.t, x, &carried, bookings)?;
+        if self.rule == Rule::Report {
+            // its damping may have been chosen anew when the step began, after the one before was booked
+            self.last.damping = snake.densities_under(&self.last.factors).1;
+        }
         let last = &self.last;
         let mut v = from.v.clone();
         for i in (0..n).filter(|&i| self.catches_up && !held[i]) {

@@ -280,6 +280,33 @@ fn a_ledger_and_a_second_run_change_no_byte() {
 }
 
 #[test]
+fn damping_chosen_again_and_again_leaves_the_account_closed() {
+    for (scheme, open) in [(Scheme::Leapfrog, 1e-12), (Scheme::Report, 1e-9)] {
+        let (body, start) = oval();
+        let mut snake = Snake::new(body, World::default()).unwrap();
+        // with the stiffness that the map lends the nodes where they are
+        snake.damp(Damping::Renewed(0.3), &start).unwrap();
+        let chosen = snake.body().damping.clone();
+        let mut state = start;
+        let mut stepper = scheme
+            .start(&mut snake, &state, 0.01, Start::SecondOrder)
+            .unwrap();
+        let mut ledger = Ledger::begin(&mut snake, &state)
+            .and_then(|ledger| ledger.under(scheme, Start::SecondOrder, &mut snake))
+            .unwrap();
+        let first = ledger.energies(&mut snake, &state).total();
+        for _ in 0..300 {
+            stepper.step(&mut snake, &mut state).unwrap();
+            ledger.book(&mut snake, &state).unwrap();
+            let gap = (ledger.energies(&mut snake, &state).total() - first).abs();
+            // rounding of places over the step is in the report's velocities (D21)
+            assert!(gap < open * first, "{scheme}: {gap} of {first}");
+        }
+        assert_ne!(snake.body().damping, chosen, "it never changed");
+    }
+}
+
+#[test]
 fn a_hand_may_change_maps_in_a_run_and_the_account_closes() {
     let (body, start) = oval();
     let mut snake = Snake::new(body, World::default()).unwrap();
