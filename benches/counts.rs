@@ -11,6 +11,7 @@ use std::error::Error;
 use std::hint::black_box;
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
+use std::sync::Arc;
 
 use banded::{Factor, Pentadiagonal};
 use elastic::{Material, Topology};
@@ -33,13 +34,17 @@ type Outcome<T> = Result<T, Box<dyn Error>>;
 /// Something to count: set up once, then run as often as asked.
 type Kernel = fn(u32) -> Outcome<()>;
 
-const KERNELS: [(&str, Kernel); 15] = [
+const KERNELS: [(&str, Kernel); 18] = [
     ("banded-solve/1000", solve),
     ("elastic-force/1000", elastic_force),
     ("leapfrog-step/1000", |times| {
         step(Scheme::Leapfrog, 1000, times)
     }),
     ("imex-step/1000", |times| step(Scheme::Imex, 1000, times)),
+    ("leapfrog-maps/1000", |times| {
+        mapped(Scheme::Leapfrog, times)
+    }),
+    ("imex-maps/1000", |times| mapped(Scheme::Imex, times)),
     ("newmark-step/1000", |times| {
         step(Scheme::Newmark, 1000, times)
     }),
@@ -50,8 +55,9 @@ const KERNELS: [(&str, Kernel); 15] = [
         stiff(Scheme::Gauss4, 200, times)
     }),
     ("exact-step/200", |times| stiff(Scheme::Exact, 200, times)),
-    ("crowd-step/10x16", |times| crowd(10, times)),
-    ("crowd-step/100x16", |times| crowd(100, times)),
+    ("crowd-step/10x16", |times| crowd(10, false, times)),
+    ("crowd-step/100x16", |times| crowd(100, false, times)),
+    ("crowd-account/10x16", |times| crowd(10, true, times)),
     ("outline-resolve/1000", resolve),
     ("outline-slide/1000", slide),
     ("field-sample/1000", sample),
@@ -119,9 +125,31 @@ fn stiff(scheme: Scheme, n: usize, times: u32) -> Outcome<()> {
     Ok(())
 }
 
+/// A snake of 1000 nodes in no picture, whose tension and rigidity a map gives.
+fn mapped(scheme: Scheme, times: u32) -> Outcome<()> {
+    let nodes = elastic::circle(DVec2::splat(256.0), 200.0, 1000);
+    let factors = Grid::from_shape_fn((512, 512), |(y, x)| 0.2 + 0.8 * ((x + y) as f64) / 1024.0);
+    let map = Arc::new(field::Map::new(&factors)?);
+    let mut body = Body::of(&nodes, Topology::Closed, 1.0)?
+        .with_material(Material::uniform(0.01, 10.0, 10.0))
+        .with_damping(0.5);
+    body.maps.tension = Some(Arc::clone(&map));
+    body.maps.rigidity = Some(map);
+    let mut snake = Snake::new(body, World::default())?;
+    let mut state = State::at_rest(nodes);
+    let mut stepper = scheme.start(&mut snake, &state, 0.02, Start::SecondOrder)?;
+    for _ in 0..times {
+        stepper.step(&mut snake, &mut state)?;
+    }
+    Ok(())
+}
+
 /// Rings in rows of ten, all touching their neighbors: ten times as many should take ten times as long.
-fn crowd(count: u32, times: u32) -> Outcome<()> {
+fn crowd(count: u32, account: bool, times: u32) -> Outcome<()> {
     let mut crowd = rings::crowd(count, 10, 16)?;
+    if !account {
+        crowd = crowd.without_account();
+    }
     for _ in 0..times {
         crowd.step()?;
     }

@@ -1,4 +1,5 @@
-//! Rings in rows, each touching its neighbors: what crowds are timed and counted on.
+//! Rings in rows, each touching its neighbors: what crowds are timed and counted on. They keep an account of energies, as
+//! [`Crowd::new`] says, unless told not to.
 
 use std::error::Error;
 

@@ -118,7 +118,9 @@ fn crowd(c: &mut Criterion) {
     group.sample_size(10);
     for count in [100_u32, 1000, 10_000] {
         let crowd = rings::crowd(count, 100, 8);
-        let mut crowd = crowd.unwrap_or_else(|error| unreachable!("{error}"));
+        let crowd = crowd.unwrap_or_else(|error| unreachable!("{error}"));
+        // as scenes do that record no energies
+        let mut crowd = crowd.without_account();
         group.throughput(Throughput::Elements(u64::from(count)));
         group.bench_function(BenchmarkId::from_parameter(count), |b| {
             b.iter(|| {
