@@ -111,12 +111,6 @@ pub(super) fn tips(
             &"ends grow of one snake that nothing else looks after; without [[also]], [contact] and [upkeep] it would do",
         ));
     }
-    if text.record.energies {
-        return Err(SceneError::key(
-            "record.energies",
-            "no account is kept of a curve that grows; false would do",
-        ));
-    }
     if text
         .force
         .iter()
