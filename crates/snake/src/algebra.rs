@@ -119,6 +119,11 @@ impl Seen {
                 *total += *part;
             }
         }
+        // a line takes what is across it, and does no work
+        for k in 0..snake.rails.len() {
+            let node = snake.rails[k].0;
+            seen.total[node] = snake.along_rail(node, x[node], seen.total[node]);
+        }
         Ok(seen)
     }
 
