@@ -109,7 +109,7 @@ impl Ledger {
             return self.steps(snake, state);
         }
         if !snake.just_changed() {
-            self.change(snake)?;
+            self.change(snake, true)?;
             return self.steps(snake, state);
         }
         // changed at `state`: the step was still made by the snake as it was
@@ -122,7 +122,7 @@ impl Ledger {
         was.account = snake.account.take();
         snake.keep_account();
         self.steps(&mut was, state)?;
-        self.change(snake)
+        self.change(snake, true)
     }
 
     /// All sub-steps that led to `state`.
@@ -256,8 +256,8 @@ impl Ledger {
         Ok(())
     }
 
-    /// Book the change of the snake that happened at the last state.
-    fn change(&mut self, snake: &mut Snake) -> Result<(), Fault> {
+    /// Book the change of the snake that happened at the last state; in a run the scheme begins again then.
+    fn change(&mut self, snake: &mut Snake, again: bool) -> Result<(), Fault> {
         let mut was = self.was.clone();
         was.keep_up_with(snake);
         let sum = self.energies(&mut was, &self.before).total();
@@ -275,6 +275,9 @@ impl Ledger {
         self.rate = snake.loss(&before);
         if let Some(algebra) = &mut self.algebra {
             algebra.begin(snake, &before, &self.bookings)?;
+            if again {
+                algebra.resume();
+            }
         }
         *self.was = snake.clone();
         Ok(())
@@ -289,7 +292,7 @@ impl Ledger {
         if snake.changes == self.was.changes {
             return Ok(());
         }
-        self.change(snake)
+        self.change(snake, false)
     }
 
     /// Go on with another curve: other nodes, another rest shape, perhaps another scheme's first step. What that does to the
