@@ -4,6 +4,8 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
+mod strays;
+
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -64,40 +66,11 @@ fn oval() -> (Body, State) {
 /// How far the sum of all terms gets from what it was, as a share of the largest of them.
 fn gap(body: &Body, world: &World, start: &State, scheme: Scheme, dt: f64) -> (f64, Energies) {
     let mut snake = Snake::new(body.clone(), world.clone()).unwrap();
-    let mut state = start.clone();
-    let mut stepper = scheme
-        .start(&mut snake, &state, dt, Start::SecondOrder)
-        .unwrap();
-    let ledger = Ledger::begin(&mut snake, &state).unwrap();
-    let mut ledger = ledger
+    let ledger = Ledger::begin(&mut snake, start).unwrap();
+    let ledger = ledger
         .under(scheme, Start::SecondOrder, &mut snake)
         .unwrap();
-    let first = ledger.energies(&mut snake, &state).total();
-    let (mut gap, mut largest) = (0.0_f64, 0.0_f64);
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a few hundred"
-    )]
-    let steps = (4.0 / dt).round() as u64;
-    let outcome = run(
-        &mut snake,
-        &mut *stepper,
-        &mut state,
-        &Until::steps(steps),
-        &mut |snake, state| {
-            ledger.book(snake, state).unwrap();
-            let energies = ledger.energies(snake, state);
-            gap = gap.max((energies.total() - first).abs());
-            largest = energies
-                .values()
-                .iter()
-                .fold(largest, |a, e| a.max(e.abs()));
-            ControlFlow::Continue(())
-        },
-    );
-    assert!(outcome.is_good());
-    (gap / largest, ledger.energies(&mut snake, &state))
+    strays::over_four(&mut snake, ledger, start, scheme, dt)
 }
 
 #[test]
