@@ -314,7 +314,7 @@ impl DormandPrince {
         let moment = Moment {
             t: t + h,
             dt: h,
-            pace: Pace::Together,
+            pace: Pace::Together { way: 0.5 },
         };
         let State { x, v, .. } = &mut self.to;
         let touched = self.contacts.meet(system, moment, &self.from.x, x, v)?;

@@ -171,7 +171,7 @@ impl Stepper for Euler {
         let moment = Moment {
             t: end,
             dt,
-            pace: Pace::Together,
+            pace: Pace::Together { way: 1.0 },
         };
         let (x, v) = (&mut self.next_x, &mut self.next_v);
         self.contacts

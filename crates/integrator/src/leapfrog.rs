@@ -15,7 +15,8 @@ use crate::{Fault, SchemeError, Start, State, Stepper, System, each};
 /// ```
 ///
 /// The positions are those of `x⁺ = [2x − (1 − a/2) x₋ + dt²/μ F] / (1 + a/2)`, without its
-/// cancellation (D18, D21). Forces that depend on velocity see `v½`.
+/// cancellation (D18, D21). Forces that depend on velocity see `v½`. Obstacles are met at `x⁺` with `v½`, and
+/// hold the touched nodes against the second half of the forces.
 #[derive(Debug)]
 pub(crate) struct Leapfrog {
     clock: Clock,
@@ -187,7 +188,9 @@ impl Stepper for Leapfrog {
             pace: Pace::Catching,
         };
         let (next, half) = (&mut self.next, &mut self.half);
-        let touched = self.contacts.meet(system, moment, &state.x, next, half)?;
+        let touched = self
+            .contacts
+            .meet_halfway(system, moment, &state.x, next, half)?;
         // the force of the old place is lost if the new one has none, so a fault starts afresh
         self.ready = false;
         if system.advance(t, &self.next) {
@@ -199,17 +202,10 @@ impl Stepper for Leapfrog {
         let (next, half) = (&mut self.next, &mut self.half);
         stepper::force(system, t, next, half, &mut self.force)?;
         self.ready = true;
-        if touched {
-            // what a touch left a node with stays as it is: kept where the old velocity is not needed any more
-            for touch in &self.contacts.touches {
-                state.v[touch.node] = self.half[touch.node];
-            }
-        }
         self.arrive();
         if touched {
-            for touch in &self.contacts.touches {
-                self.half[touch.node] = state.v[touch.node];
-            }
+            let (next, half) = (&self.next, &mut self.half);
+            self.contacts.support(system, moment, next, half);
         }
         std::mem::swap(&mut state.v, &mut self.half);
         std::mem::swap(&mut state.x, &mut self.next);

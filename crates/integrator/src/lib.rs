@@ -69,5 +69,5 @@ pub use region::Mode;
 pub use report::report_steps;
 pub use scheme::Scheme;
 pub use stepper::{Start, Stepper};
-pub use system::{Fault, FaultKind, Meeting, State, System, Touch};
+pub use system::{Fault, FaultKind, Meeting, Response, State, System, Touch};
 pub use wrapped::Wrapped;

@@ -137,7 +137,7 @@ impl Stepper for LinearlyImplicit {
         let moment = Moment {
             t: t + dt,
             dt,
-            pace: Pace::Together,
+            pace: Pace::Together { way: 1.0 },
         };
         let (x, v) = (&mut self.next_x, &mut self.next_v);
         self.contacts

@@ -163,18 +163,12 @@ impl Stepper for GeneralizedAlpha {
         let moment = Moment {
             t: t + dt,
             dt,
-            pace: Pace::Together,
+            pace: Pace::Together { way: 0.5 },
         };
         let (x, v) = (&mut self.next_x, &mut self.next_v);
-        if self
-            .contacts
-            .meet_with(system, moment, &state.x, x, v, Some(&mut self.solver))?
-        {
-            for touch in &self.contacts.touches {
-                // what it stands on carries it
-                self.external[touch.node] = DVec2::ZERO;
-            }
-        }
+        // accelerations are those of the forces: what obstacles do stands in the velocities alone
+        self.contacts
+            .meet_with(system, moment, &state.x, x, v, Some(&mut self.solver))?;
         std::mem::swap(&mut self.a, &mut self.external);
         std::mem::swap(&mut state.x, x);
         std::mem::swap(&mut state.v, v);
@@ -303,7 +297,7 @@ impl Newmark {
         let moment = Moment {
             t: t + dt,
             dt,
-            pace: Pace::Together,
+            pace: Pace::Together { way: 0.5 },
         };
         self.contacts
             .meet_with(system, moment, &state.x, x, v, Some(&mut self.solver))?;

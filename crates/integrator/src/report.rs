@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::contact::{Contacts, Moment, Pace};
 use crate::stepper::{self, Mass};
-use crate::{Fault, SchemeError, Start, State, Stepper, System, each};
+use crate::{Fault, Response, SchemeError, Start, State, Stepper, System, each};
 
 /// Eq. 3.5 as the report's program computes it.
 ///
@@ -14,7 +14,7 @@ use crate::{Fault, SchemeError, Start, State, Stepper, System, each};
 ///
 /// The velocity is the backward difference `(x − x₋) / dt` (D18). Positions are formed from terms as
 /// large as `2 μ x / dt²`, so rounding grows over thousands of steps (D21), and time is the sum of
-/// all `dt` (D20): both on purpose. A touch without velocity leaves `x₋` alone (D57).
+/// all `dt` (D20): both on purpose. A clamp leaves `x₋` alone (D57).
 #[derive(Debug)]
 pub(crate) struct Report {
     dt: f64,
@@ -110,9 +110,9 @@ impl Stepper for Report {
             .contacts
             .meet(system, moment, &state.x, next, &mut self.backward)?
         {
-            for touch in &self.contacts.touches {
+            for touch in self.contacts.touches() {
                 let i = touch.node;
-                if touch.velocity.is_some() {
+                if touch.response != Response::Clamp {
                     self.previous[i] = next[i] - dt * self.backward[i];
                 }
             }

@@ -167,7 +167,7 @@ impl Stepper for Rk4 {
         let moment = Moment {
             t: t + dt,
             dt,
-            pace: Pace::Together,
+            pace: Pace::Together { way: 0.5 },
         };
         self.contacts
             .meet(system, moment, &state.x, &mut self.next_x, &mut self.next_v)?;

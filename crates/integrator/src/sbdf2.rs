@@ -17,7 +17,8 @@ use crate::{Fault, SchemeError, State, Stepper, System, each};
 ///
 /// with `δ = x⁺ − x` and `d = x − x₋`, which keeps what `x` and `x₋` would lose to rounding. The first
 /// step is Euler's, whose single error of order dt² costs no order. Does without mass where there
-/// is damping. A node that touched something forgets what was before.
+/// is damping. A touch is an impulse: its change of velocity is added to the past as well, so that the
+/// acceleration that the past stands for stays.
 ///
 /// [ascher95].
 #[derive(Debug)]
@@ -131,7 +132,7 @@ impl Stepper for Sbdf2 {
         let moment = Moment {
             t: t + dt,
             dt,
-            pace: Pace::Together,
+            pace: Pace::Together { way: 0.5 },
         };
         let (x, v) = (&mut self.next_x, &mut self.next_v);
         let touched = self
@@ -140,10 +141,14 @@ impl Stepper for Sbdf2 {
         each::onto([x, &state.x], &mut self.last_x, |[x, before], _| x - before);
         self.last_v.copy_from_slice(&state.v);
         if touched {
-            for touch in &self.contacts.touches {
-                let i = touch.node;
-                self.last_x[i] = dt * v[i];
-                self.last_v[i] = v[i];
+            // the past as if the node had always had what the touch gave it: its acceleration stays
+            let (free_x, free_v) = self.contacts.before();
+            for i in 0..v.len() {
+                let given = v[i] - free_v[i];
+                if given != DVec2::ZERO {
+                    self.last_x[i] = free_x[i] - state.x[i] + dt * given;
+                    self.last_v[i] += given;
+                }
             }
         }
         std::mem::swap(&mut self.last_f, &mut self.external);

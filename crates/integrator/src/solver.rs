@@ -113,6 +113,12 @@ impl Solver {
         &self.matrix
     }
 
+    /// What resists a node's increment besides the stiffness: its entry of `p M + q C`.
+    pub(crate) fn inertia(&self, system: &dyn System, node: usize) -> f64 {
+        let (p, q) = self.weights;
+        p * system.mass()[node] + q * system.damping()[node]
+    }
+
     /// Turn the forces `b` into the increment `S⁻¹ b`; `b` must be zero at held nodes.
     pub(crate) fn solve(&self, b: &mut [DVec2]) {
         self.factor.solve(b);

@@ -84,16 +84,56 @@ pub struct Fault {
     pub kind: FaultKind,
 }
 
-/// A node that met something at the end of a step, and where that leaves it.
+/// A node that met an obstacle at the end of a step, and what the obstacle does to it.
+///
+/// The velocity is turned by the scheme, which alone knows how much of the step's forces is in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
     /// The node.
     pub node: usize,
     /// Where it is put.
     pub position: DVec2,
-    /// Its velocity afterwards. `None`: only the position is set, and the velocity becomes what
-    /// carried it there, (position − before) / dt, as in the report's program (D57).
-    pub velocity: Option<DVec2>,
+    /// Unit vector away from the obstacle.
+    pub normal: DVec2,
+    /// What happens to the velocity.
+    pub response: Response,
+}
+
+/// How an obstacle changes the velocity v of a node; n is the normal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Response {
+    /// The part across becomes what carried the node to its place, `(position − before)·n / dt`, as in
+    /// the report's program (D57). The part along stays.
+    Clamp,
+    /// The part across turns round, `−restitution v·n`, if it points into the obstacle. The part along
+    /// loses at most `friction` times the impulse across (Coulomb).
+    Impact {
+        /// From 0 (inelastic) to 1 (elastic).
+        restitution: f64,
+        /// Coulomb's coefficient, at least 0.
+        friction: f64,
+    },
+    /// The part across is lost, whichever way it points: a node that is guided on a line.
+    Guide,
+}
+
+impl Response {
+    /// The largest speed away from the obstacle, and the largest change of speed along it, that an impact
+    /// leaves a node of velocity `v` with.
+    pub(crate) fn at_most(self, normal: DVec2, v: DVec2) -> (f64, f64) {
+        let Self::Impact {
+            restitution,
+            friction,
+        } = self
+        else {
+            return (0.0, 0.0);
+        };
+        let across = v.dot(normal);
+        let into = (-across).max(0.0);
+        let slip = (v - normal * across).length();
+        let away = across.max(restitution * into);
+        (away, slip.min(friction * (1.0 + restitution) * into))
+    }
 }
 
 /// Places and velocities of all nodes just before touches and just after.
@@ -101,12 +141,15 @@ pub struct Touch {
 pub struct Meeting<'a> {
     /// When.
     pub t: f64,
-    /// How far the velocities are behind the places, at nodes that were not touched. T.
+    /// How far the velocities are behind the places. T.
     pub late: f64,
     /// Places and velocities before.
     pub before: (&'a [DVec2], &'a [DVec2]),
     /// And after.
     pub after: (&'a [DVec2], &'a [DVec2]),
+    /// What the obstacles have added to the velocities after the second half of the step's forces;
+    /// empty for schemes whose steps have one part.
+    pub support: &'a [DVec2],
 }
 
 /// Nodes with mass, damping, stiffness and external forces: μ v̈ + γ v̇ = elastic + external.

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::{Meeting, System, Touch, Wrapped};
+use crate::{Meeting, Response, System, Touch, Wrapped};
 
 /// Which version of a system's parameters there is, and whether something was touched.
 #[derive(Debug, Clone, Default)]
@@ -24,6 +24,7 @@ pub(crate) struct Met {
     late: f64,
     before: (Vec<DVec2>, Vec<DVec2>),
     after: (Vec<DVec2>, Vec<DVec2>),
+    support: Vec<DVec2>,
 }
 
 impl Met {
@@ -34,6 +35,7 @@ impl Met {
             late: meeting.late,
             before: own(meeting.before),
             after: own(meeting.after),
+            support: meeting.support.to_vec(),
         }
     }
 }
@@ -47,6 +49,7 @@ impl Watch {
                 late: met.late,
                 before: (&met.before.0, &met.before.1),
                 after: (&met.after.0, &met.after.1),
+                support: &met.support,
             });
         }
     }
@@ -89,16 +92,12 @@ impl Wrapped for Watched<'_> {
         self.inner.contacts(dt, before, x, v, touches);
         self.watch.touched |= !touches.is_empty();
         for touch in &*touches {
-            let (Some(velocity), Some(&x), Some(&v)) =
-                (touch.velocity, x.get(touch.node), v.get(touch.node))
-            else {
+            let (Response::Impact { .. }, Some(&v)) = (touch.response, v.get(touch.node)) else {
                 continue;
             };
             // out again, and slower along it
-            let away = (touch.position - x).normalize_or_zero();
-            let change = velocity - v;
-            let along = change - away * change.dot(away);
-            let fast = velocity.dot(away).max(0.0).hypot(along.length());
+            let (away, along) = touch.response.at_most(touch.normal, v);
+            let fast = away.hypot(along);
             self.watch.late = self.watch.late.max(dt * fast);
         }
     }

@@ -22,6 +22,8 @@ pub(crate) struct Touched {
     pub(crate) before: (Vec<DVec2>, Vec<DVec2>),
     /// Velocities just after it, as the scheme goes on with them.
     pub(crate) after: Vec<DVec2>,
+    /// What obstacles added to the velocities after the second half of the step; empty where it has none.
+    pub(crate) support: Vec<DVec2>,
     /// What they have taken, as far as places and velocities say at the moment of each.
     pub(crate) lost: f64,
 }
@@ -185,6 +187,7 @@ impl Snake {
         account.contact = Some(Touched {
             before: (x.to_vec(), v.to_vec()),
             after: turned.to_vec(),
+            support: meeting.support.to_vec(),
             lost: earlier + lost,
         });
         self.account = Some(account);

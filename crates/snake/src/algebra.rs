@@ -248,14 +248,27 @@ impl Algebra {
         booked.works = pairs.map(|(first, second)| work(first, second)).collect();
         if let Some(touched) = &touched {
             let before = snake.mechanical(to.t, x, &full);
-            booked.contact = before - snake.mechanical(to.t, &to.x, &to.v);
             let seen = match self.rule {
                 Rule::Report => &to.v,
                 Rule::Leapfrog => &touched.after,
             };
             let after = Seen::at(snake, to.t, &to.x, seen, bookings)?;
+            // where the forces and the impulses alone lead: a force that the scheme leaves out shows
+            let led: Vec<DVec2> = match self.rule {
+                Rule::Report => to.v.clone(),
+                Rule::Leapfrog => (0..n)
+                    .map(|i| {
+                        let kick = 0.5 * dt / after.mass[i];
+                        let whole = (seen[i] + kick * after.total[i])
+                            / (1.0 + kick * after.damping[i]);
+                        let support = touched.support.get(i).copied().unwrap_or_default();
+                        if held[i] { DVec2::ZERO } else { whole + support }
+                    })
+                    .collect(),
+            };
+            booked.contact = before - snake.mechanical(to.t, &to.x, &led);
             // what the scheme holds back is the contact's to take as well
-            let moved = self.store(&here, &full, &held, dt) - self.store(&after, &to.v, &held, dt);
+            let moved = self.store(&here, &full, &held, dt) - self.store(&after, &led, &held, dt);
             booked.contact += h * moved;
             booked.scheme += h * moved;
             self.last = after;

@@ -1,7 +1,7 @@
 //! Nodes that slide along a line: the border of a picture, or another curve.
 
 use glam::DVec2;
-use integrator::{System, Touch};
+use integrator::{Response, System, Touch};
 use outline::Rail;
 
 use crate::{Snake, SnakeError};
@@ -69,7 +69,8 @@ impl Snake {
                 touches.push(Touch {
                     node,
                     position: foot.on.at,
-                    velocity: Some(tangent * tangent.dot(v[node])),
+                    normal: tangent.perp(),
+                    response: Response::Guide,
                 });
             }
         }

@@ -421,11 +421,10 @@ impl System for Snake {
             if self.slides(node) {
                 continue;
             }
-            let (mut place, mut velocity) = (x, v);
+            let mut place = x;
             for wall in &self.world.walls {
-                if let Some(touch) = wall.touch(node, place, velocity) {
+                if let Some(touch) = wall.touch(node, place, v) {
                     place = touch.position;
-                    velocity = touch.velocity.unwrap_or(velocity);
                     touches.push(touch);
                 }
             }

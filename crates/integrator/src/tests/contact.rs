@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::problems::{self, Springs};
-use crate::{Scheme, Start, State, System, Touch, kinetic_energy};
+use crate::{Response, Scheme, Start, State, System, Touch, kinetic_energy};
 
 /// Springs above a floor at y = 0 (y down), which sends back `restitution` of the speed.
 pub(super) struct Floor {
@@ -25,23 +25,19 @@ impl crate::Wrapped for Floor {
         _dt: f64,
         _before: &[DVec2],
         x: &[DVec2],
-        v: &[DVec2],
+        _v: &[DVec2],
         touches: &mut Vec<Touch>,
     ) {
-        for (node, (x, v)) in x.iter().zip(v).enumerate() {
-            if x.y > 0.0 {
-                let up = if v.y > 0.0 {
-                    -self.restitution * v.y
-                } else {
-                    v.y
-                };
-                let velocity = Some(DVec2::new(v.x, up));
-                touches.push(Touch {
-                    node,
-                    position: DVec2::new(x.x, 0.0),
-                    velocity,
-                });
-            }
+        for (node, x) in x.iter().enumerate().filter(|(_, x)| x.y > 0.0) {
+            touches.push(Touch {
+                node,
+                position: DVec2::new(x.x, 0.0),
+                normal: DVec2::NEG_Y,
+                response: Response::Impact {
+                    restitution: self.restitution,
+                    friction: 0.0,
+                },
+            });
         }
     }
 }
