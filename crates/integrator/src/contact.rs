@@ -180,7 +180,8 @@ impl Contacts {
         Ok(touched)
     }
 
-    /// Hold the touched nodes against the second half of the step's forces, which is in `v` now.
+    /// Hold the touched nodes against the second half of the step's forces, which is in `v` now: across
+    /// the obstacle they leave with the speed that the energy allowed, along it nothing is changed but by friction.
     pub(crate) fn support(
         &mut self,
         system: &mut dyn System,
@@ -193,11 +194,9 @@ impl Contacts {
         for (touch, &speed) in self.touches.iter().zip(&self.speeds) {
             let i = touch.node;
             let more = speed - v[i].dot(touch.normal);
-            if more > 0.0 || touch.response == Response::Guide {
-                let change = impulse(touch, v[i], more, more);
-                v[i] += change;
-                self.support[i] += change;
-            }
+            let change = impulse(touch, v[i], more, more);
+            v[i] += change;
+            self.support[i] += change;
         }
         system.met(&Meeting {
             t: moment.t,
@@ -406,4 +405,50 @@ pub fn kinetic_energy(system: &dyn System, state: &State) -> f64 {
         .zip(&state.v)
         .map(|(m, v)| m * v.length_squared())
         .sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn touch(restitution: f64, friction: f64) -> Touch {
+        Touch {
+            node: 0,
+            position: DVec2::ZERO,
+            normal: DVec2::X,
+            response: Response::Impact {
+                restitution,
+                friction,
+            },
+        }
+    }
+
+    #[test]
+    fn friction_takes_its_share_of_the_impulse_across() {
+        // from −4 to 2 across: an impulse of 6, friction at most 0.6 of it, 3.0 − 0.6
+        let v = DVec2::new(-4.0, 3.0);
+        let after = v + impulse(&touch(0.5, 0.1), v, 6.0, 6.0);
+        assert!((after - DVec2::new(2.0, 2.4)).length() < 1e-14);
+    }
+
+    #[test]
+    fn friction_counts_the_impulse_that_was_given_and_not_the_one_asked_for() {
+        // the speed away was lowered to 1: the impulse is 5
+        let v = DVec2::new(-4.0, 3.0);
+        let after = v + impulse(&touch(0.5, 0.1), v, 5.0, 5.0);
+        assert!((after - DVec2::new(1.0, 2.5)).length() < 1e-14);
+    }
+
+    #[test]
+    fn strong_friction_stops_the_slip_and_does_not_turn_it_round() {
+        let v = DVec2::new(-4.0, 3.0);
+        let after = v + impulse(&touch(0.0, 5.0), v, 4.0, 4.0);
+        assert!(after.length() < 1e-15);
+    }
+
+    #[test]
+    fn a_node_that_leaves_already_keeps_its_velocity() {
+        let v = DVec2::new(4.0, 3.0);
+        assert_eq!(impulse(&touch(0.5, 0.1), v, 0.0, 0.0), DVec2::ZERO);
+    }
 }
