@@ -1,0 +1,179 @@
+//! What speaks for an outline that has been found: that the picture holds it, that it is an outline at all.
+//!
+//! A curve can come to rest where nothing pulls, folded onto itself, or inside out. Rest alone is no success.
+
+use std::fmt;
+
+use glam::DVec2;
+use integrator::State;
+use outline::Neighbours;
+use snake::Snake;
+
+use crate::build::force::PULL;
+
+/// How far to either side of a node the forces are asked for. Pixels.
+const PROBE: f64 = 1.0;
+
+/// The least stiffness, against that of an edge as high as the picture's contrast, that counts as a hold.
+const FIRM: f64 = 0.01;
+
+/// The least share of a closed outline that must be held, or of an open one.
+const LEAST_HELD: f64 = 0.05;
+
+/// The least area, against that of the start.
+const LEAST_AREA: f64 = 0.1;
+
+/// What speaks for one curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evidence {
+    /// Share of the nodes that the picture holds: moved along the normal, they are pulled back.
+    pub held: f64,
+    /// How often the curve crosses or touches itself.
+    pub crossings: usize,
+    /// Signed area at the start and at the end, of a closed curve. Square pixels.
+    pub area: Option<(f64, f64)>,
+    /// The least distance between parts of the curve that face each other, if it is below the width that
+    /// the picture's smoothing can resolve; and that width. Pixels.
+    pub narrow: Option<(f64, f64)>,
+}
+
+impl Evidence {
+    /// What speaks for the curve at `end`, which began at `start`; `width`: twice the smoothing σ, if known.
+    ///
+    /// The forces of the picture are asked for a pixel inside and a pixel outside of every node: O(n).
+    pub fn of(snake: &mut Snake, start: &[DVec2], end: &State, width: Option<f64>) -> Self {
+        let closed = snake.body().topology.is_closed();
+        let area = closed.then(|| (elastic::area(start), elastic::area(&end.x)));
+        let crossings = outline::crossings(&end.x, closed).map_or(0, |found| found.len());
+        Self {
+            held: held(snake, end, closed),
+            crossings,
+            area,
+            narrow: width.and_then(|width| narrow(&end.x, closed, width)),
+        }
+    }
+
+    /// Why this is no outline, if it is none.
+    #[must_use]
+    pub fn objection(&self) -> Option<String> {
+        if let Some((before, after)) = self.area {
+            if before * after < 0.0 {
+                return Some("the curve is turned inside out".to_owned());
+            }
+            if after.abs() < LEAST_AREA * before.abs() {
+                return Some(format!(
+                    "the curve has collapsed: its area is {:.1} of {:.1} square pixels at the start",
+                    after.abs(),
+                    before.abs()
+                ));
+            }
+        }
+        if self.crossings > 0 {
+            return Some(format!("the curve crosses itself {} times", self.crossings));
+        }
+        if self.held < LEAST_HELD {
+            return Some(
+                "no boundary here: the picture holds no part of the curve where it is".to_owned(),
+            );
+        }
+        None
+    }
+
+    /// What to know of an outline that is one.
+    #[must_use]
+    pub fn note(&self) -> Option<String> {
+        self.narrow.map(|(gap, width)| {
+            format!(
+                "parts of the curve face each other at {gap:.1} pixels; the smoothing resolves {width:.1}: \
+                 a smaller --sigma, or --force line for a thin line, tells them apart"
+            )
+        })
+    }
+}
+
+impl fmt::Display for Evidence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:.0} % held by the picture", 100.0 * self.held)?;
+        if let Some((_, area)) = self.area {
+            write!(f, ", area {:.1} px²", area.abs())?;
+        }
+        if self.crossings > 0 {
+            write!(f, ", {} crossings", self.crossings)?;
+        }
+        Ok(())
+    }
+}
+
+/// Unit normals of the nodes.
+fn normals(x: &[DVec2], closed: bool) -> Vec<DVec2> {
+    let n = x.len();
+    let at = |i: usize, step: usize, ahead: bool| {
+        if closed {
+            x[if ahead {
+                (i + step) % n
+            } else {
+                (i + n - step % n) % n
+            }]
+        } else if ahead {
+            x[(i + step).min(n - 1)]
+        } else {
+            x[i.saturating_sub(step)]
+        }
+    };
+    (0..n)
+        .map(|i| (at(i, 1, true) - at(i, 1, false)).perp().normalize_or_zero())
+        .collect()
+}
+
+/// Share of the nodes that forces of the picture pull back when the curve is moved along its normals.
+fn held(snake: &mut Snake, end: &State, closed: bool) -> f64 {
+    let n = end.len();
+    let normals = normals(&end.x, closed);
+    let mut beside = |step: f64| -> Option<Vec<f64>> {
+        let moved = State {
+            x: end
+                .x
+                .iter()
+                .zip(&normals)
+                .map(|(x, normal)| x + step * normal)
+                .collect(),
+            v: vec![DVec2::ZERO; n],
+            ..end.clone()
+        };
+        let mut force = vec![DVec2::ZERO; n];
+        for index in 0..snake.world().forces.len() {
+            if snake.world().forces[index].force().is_of_picture() {
+                snake.force_of(index, &moved, &mut force).ok()?;
+            }
+        }
+        Some(force.iter().zip(&normals).map(|(f, n)| f.dot(*n)).collect())
+    };
+    let (Some(outer), Some(inner)) = (beside(PROBE), beside(-PROBE)) else {
+        return 1.0; // a force has no value there: nothing can be said against it
+    };
+    let least = 2.0 * PROBE * FIRM * PULL;
+    let firm = outer.iter().zip(&inner).filter(|(outer, inner)| *inner - *outer > least);
+    firm.count() as f64 / n as f64
+}
+
+/// The least distance between parts that face each other, if below `width`.
+fn narrow(x: &[DVec2], closed: bool, width: f64) -> Option<(f64, f64)> {
+    let n = x.len();
+    let spacing = elastic::length(x, closed) / n as f64;
+    // a part farther along the curve than the way around a half circle of that width
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at most the number of nodes"
+    )]
+    let apart = (2.0 * width / spacing).ceil().min(n as f64) as usize;
+    let mut neighbours = Neighbours::default();
+    neighbours.rebuild([(x, closed)], width).ok()?;
+    let mut found = Vec::new();
+    let mut least = f64::INFINITY;
+    for node in 0..n {
+        neighbours.near_node(0, node, apart, width, &mut found);
+        least = found.iter().map(|near| near.distance).fold(least, f64::min);
+    }
+    (least < width).then_some((least, width))
+}
