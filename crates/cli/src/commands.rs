@@ -30,7 +30,7 @@ pub(crate) fn run(args: &args::Run) -> Answer {
             let message = "this scene has no steps to count; its time in dt and steps would do";
             return Err(key("--dt", message));
         }
-        Some(args::Step::Fixed(dt)) => (plan.dt, plan.tolerance) = (dt, None),
+        Some(args::Step::Fixed(dt)) => plan.set_step(dt),
         Some(args::Step::Auto) => plan.choose_steps(scene.company.is_some()),
         None => {}
     }
@@ -207,13 +207,35 @@ fn go(scene: &mut Scene, output: &Output, flags: &Flags<'_>) -> Answer {
     }
     let short = matches!(outcome, Outcome::Finished { .. }) && scene.plan.until.rest.is_some();
     if short {
-        say("it was to come to rest and has not; more steps would do, or no key run.rest");
+        say("it was to come to rest and has not: allow more steps");
     }
-    Ok(if outcome.is_good() && !short {
+    let objected = judge(title, &record);
+    Ok(if outcome.is_good() && !short && !objected {
         ExitCode::SUCCESS
     } else {
         ExitCode::from(1)
     })
+}
+
+/// Say what speaks for each curve that came to rest; whether anything speaks against one.
+fn judge(title: &str, record: &Record) -> bool {
+    let many = record.evidence.len() > 1;
+    let mut objected = false;
+    for (index, evidence) in record.evidence.iter().enumerate() {
+        let which = if many {
+            format!(", curve {index}")
+        } else {
+            String::new()
+        };
+        say(&format!("{title}{which}: {evidence}"));
+        if let Some(reason) = evidence.objection() {
+            say(&format!("{title}{which}: not an outline: {reason}"));
+            objected = true;
+        } else if let Some(note) = evidence.note() {
+            say(&format!("note: {note}"));
+        }
+    }
+    objected
 }
 
 /// Run a scene with a progress bar on standard error, when a person is there to see it.

@@ -362,7 +362,10 @@ impl Contacts {
         let mut pushes: Vec<(DVec2, f64)> = Vec::new();
         for touch in &self.touches {
             let push = self.product[touch.node].dot(touch.normal).max(0.0);
-            match pushes.iter_mut().find(|(normal, _)| *normal == touch.normal) {
+            match pushes
+                .iter_mut()
+                .find(|(normal, _)| *normal == touch.normal)
+            {
                 Some((_, sum)) => *sum += push,
                 None => pushes.push((touch.normal, push)),
             }
@@ -374,8 +377,11 @@ impl Contacts {
             let share = all.map_or(0.0, |(_, sum)| if *sum > 0.0 { push / sum } else { 0.0 });
             let inertia = solver.inertia(system, i);
             let passed = received.dot(touch.normal).max(0.0) * share;
-            self.passed_on
-                .push(if inertia > 0.0 { passed / (inertia * dt) } else { 0.0 });
+            self.passed_on.push(if inertia > 0.0 {
+                passed / (inertia * dt)
+            } else {
+                0.0
+            });
         }
     }
 }

@@ -7,9 +7,9 @@ use snake::{
     Contact, Crowd, CrowdError, Energies, Event, EventKind, Outcome, Snake, Timing, Upkeep,
 };
 
-use crate::SceneError;
 use crate::record::{Curve, Frame, Record};
 use crate::scene::Scene;
+use crate::{Evidence, SceneError};
 
 /// Whom a scene's snake shares its world with, and how curves are kept in order.
 #[derive(Debug, Clone)]
@@ -39,6 +39,7 @@ impl Scene {
         };
         let mut snakes = vec![(self.snake.clone(), self.start.clone())];
         snakes.extend(company.others.iter().cloned());
+        let snakes_at_start: Vec<_> = snakes.iter().map(|(_, state)| state.x.clone()).collect();
         let crowd = Crowd::new(snakes, timing, company.contact, company.upkeep);
         let mut crowd = crowd.map_err(|error| refused(&error))?;
         if let Some(rest) = plan.until.rest {
@@ -86,6 +87,15 @@ impl Scene {
             record
                 .frames
                 .push(frame(&mut crowd, keep.velocities, keep.energies));
+        }
+        if self.picture.is_some() && matches!(outcome, Some(Outcome::Settled { .. })) {
+            for member in crowd.members() {
+                // curves that were born on the way began where they are
+                let start = snakes_at_start.get(member.id).unwrap_or(&member.state.x);
+                let mut snake = member.snake.clone();
+                let found = Evidence::of(&mut snake, start, &member.state, self.resolves);
+                record.evidence.push(found);
+            }
         }
         record.events = crowd.events().iter().map(said).collect();
         record.pace = crowd.summary().map(|summary| summary.to_string());

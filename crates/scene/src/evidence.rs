@@ -23,6 +23,9 @@ const LEAST_HELD: f64 = 0.05;
 /// The least area, against that of the start.
 const LEAST_AREA: f64 = 0.1;
 
+/// Normals whose product is below this face each other.
+const OPPOSITE: f64 = -0.5;
+
 /// What speaks for one curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Evidence {
@@ -32,18 +35,29 @@ pub struct Evidence {
     pub crossings: usize,
     /// Signed area at the start and at the end, of a closed curve. Square pixels.
     pub area: Option<(f64, f64)>,
-    /// The least distance between parts of the curve that face each other, if it is below the width that
-    /// the picture's smoothing can resolve; and that width. Pixels.
-    pub narrow: Option<(f64, f64)>,
+    /// Parts of the curve that face each other more closely than the picture's smoothing can resolve, if any.
+    pub narrow: Option<Narrow>,
+}
+
+/// Where two parts of a curve face each other most closely. Pixels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Narrow {
+    /// A node of one part.
+    pub at: DVec2,
+    /// Its distance to the other.
+    pub gap: f64,
+    /// The least distance that the smoothing resolves.
+    pub resolves: f64,
 }
 
 impl Evidence {
-    /// What speaks for the curve at `end`, which began at `start`; `width`: twice the smoothing σ, if known.
+    /// What speaks for the curve at `end`, which began at `start`; `width`: the least distance of two edges that the
+    /// smoothing keeps apart, if known.
     ///
     /// The forces of the picture are asked for a pixel inside and a pixel outside of every node: O(n).
     pub fn of(snake: &mut Snake, start: &[DVec2], end: &State, width: Option<f64>) -> Self {
         let closed = snake.body().topology.is_closed();
-        let area = closed.then(|| (elastic::area(start), elastic::area(&end.x)));
+        let area = closed.then(|| (elastic::signed_area(start), elastic::signed_area(&end.x)));
         let crossings = outline::crossings(&end.x, closed).map_or(0, |found| found.len());
         Self {
             held: held(snake, end, closed),
@@ -82,10 +96,11 @@ impl Evidence {
     /// What to know of an outline that is one.
     #[must_use]
     pub fn note(&self) -> Option<String> {
-        self.narrow.map(|(gap, width)| {
+        self.narrow.map(|Narrow { at, gap, resolves }| {
             format!(
-                "parts of the curve face each other at {gap:.1} pixels; the smoothing resolves {width:.1}: \
-                 a smaller --sigma, or --force line for a thin line, tells them apart"
+                "near ({:.0}, {:.0}) parts of the curve face each other at {gap:.1} pixels; the smoothing resolves \
+                 {resolves:.1}: a smaller --sigma, or --force line for a thin line, tells them apart",
+                at.x, at.y
             )
         })
     }
@@ -121,7 +136,11 @@ fn normals(x: &[DVec2], closed: bool) -> Vec<DVec2> {
         }
     };
     (0..n)
-        .map(|i| (at(i, 1, true) - at(i, 1, false)).perp().normalize_or_zero())
+        .map(|i| {
+            (at(i, 1, true) - at(i, 1, false))
+                .perp()
+                .normalize_or_zero()
+        })
         .collect()
 }
 
@@ -142,7 +161,7 @@ fn held(snake: &mut Snake, end: &State, closed: bool) -> f64 {
         };
         let mut force = vec![DVec2::ZERO; n];
         for index in 0..snake.world().forces.len() {
-            if snake.world().forces[index].force().is_of_picture() {
+            if snake.world().forces[index].is_of_picture() {
                 snake.force_of(index, &moved, &mut force).ok()?;
             }
         }
@@ -152,12 +171,15 @@ fn held(snake: &mut Snake, end: &State, closed: bool) -> f64 {
         return 1.0; // a force has no value there: nothing can be said against it
     };
     let least = 2.0 * PROBE * FIRM * PULL;
-    let firm = outer.iter().zip(&inner).filter(|(outer, inner)| *inner - *outer > least);
+    let firm = outer
+        .iter()
+        .zip(&inner)
+        .filter(|(outer, inner)| *inner - *outer > least);
     firm.count() as f64 / n as f64
 }
 
 /// The least distance between parts that face each other, if below `width`.
-fn narrow(x: &[DVec2], closed: bool, width: f64) -> Option<(f64, f64)> {
+fn narrow(x: &[DVec2], closed: bool, width: f64) -> Option<Narrow> {
     let n = x.len();
     let spacing = elastic::length(x, closed) / n as f64;
     // a part farther along the curve than the way around a half circle of that width
@@ -169,11 +191,23 @@ fn narrow(x: &[DVec2], closed: bool, width: f64) -> Option<(f64, f64)> {
     let apart = (2.0 * width / spacing).ceil().min(n as f64) as usize;
     let mut neighbours = Neighbours::default();
     neighbours.rebuild([(x, closed)], width).ok()?;
+    let normals = normals(x, closed);
     let mut found = Vec::new();
-    let mut least = f64::INFINITY;
+    let mut least: Option<(f64, usize)> = None;
     for node in 0..n {
         neighbours.near_node(0, node, apart, width, &mut found);
-        least = found.iter().map(|near| near.distance).fold(least, f64::min);
+        // nodes that crowd in a bend are near and do not face each other
+        let facing = found
+            .iter()
+            .filter(|near| normals[node].dot(normals[near.spot.edge % n]) < OPPOSITE);
+        let gap = facing.map(|near| near.distance).fold(width, f64::min);
+        if gap < least.map_or(width, |(known, _)| known) {
+            least = Some((gap, node));
+        }
     }
-    (least < width).then_some((least, width))
+    least.map(|(gap, node)| Narrow {
+        at: x[node],
+        gap,
+        resolves: width,
+    })
 }

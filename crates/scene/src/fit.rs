@@ -7,7 +7,8 @@ use field::{EdgeForce, ForceField, Polarity, Smoothing};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use snake::{
-    Acting, Body, Pressure, Rest, Sampling, Snake, SnakeError, Until, Wall, WallLaw, World,
+    Acting, Body, Certificate, Pressure, Rest, Sampling, Snake, SnakeError, Until, Wall, WallLaw,
+    World,
 };
 
 use crate::build::force::{self, Sight};
@@ -16,6 +17,13 @@ use crate::file::ForceText;
 use crate::limits::MOST_NODES;
 use crate::scene::{Plan, Recording, Scene, View};
 use crate::{Computing, Contour, ForceChoice, Picture, SceneError};
+
+/// The least distance of the found sides of a bar that is wide enough, in σ: those of a thin line are 2 σ apart
+/// however thin it is, those of a bar of 2 σ are 2.3 σ.
+const RESOLVES: f64 = 2.5;
+
+/// The longest step, for pictures that pull weakly: the usual curve is damped at a rate of 2. T.
+const MOST_DT: f64 = 1.0;
 
 /// How to fit a contour to a picture. [`Fit::default`] suits outlines of some tens to thousands of
 /// pixels drawn within about ten pixels of an edge.
@@ -46,7 +54,7 @@ pub struct Fit {
     pub computing: Computing,
     /// Pressure inside the curve, in pulls of that edge force at strength 1: above 0 it grows, below 0 it shrinks.
     pub balloon: f64,
-    /// The step; by default half of the largest stable one.
+    /// The step; by default half of the largest that is stable anywhere in the picture, and at most 1.
     pub dt: Option<f64>,
     /// Steps at most.
     pub steps: u64,
@@ -68,7 +76,7 @@ impl Default for Fit {
             computing: Computing::Auto,
             balloon: 0.0,
             dt: None,
-            steps: 20_000,
+            steps: 100_000,
         }
     }
 }
@@ -150,9 +158,10 @@ impl Fit {
             world = world.with_wall(Wall::new(point, normal, law).map_err(unfit)?);
         }
         let snake = Snake::new(body, world).map_err(unfit)?;
-        let scheme = Scheme::Leapfrog;
-        let limit = scheme.step_limit(&snake).unwrap_or(1.0);
-        let dt = self.dt.unwrap_or_else(|| (0.5 * limit).min(0.2));
+        // its steps are as long as the picture allows, whatever the spacing of the nodes and their stiffness
+        let scheme = Scheme::Sbdf2;
+        let limit = Certificate::limit(&snake, scheme).map_or(MOST_DT, |limit| 0.5 * limit.dt);
+        let dt = self.dt.unwrap_or(limit.min(MOST_DT));
         Ok(Scene {
             name: "fit".to_owned(),
             title: "a contour fitted to a picture".to_owned(),
@@ -177,6 +186,7 @@ impl Fit {
                 force: false,
                 recording: Recording::default(),
             },
+            resolves: Some(RESOLVES * self.sigma),
             notes,
         })
     }

@@ -11,9 +11,9 @@ use serde::ser::SerializeMap as _;
 use serde::{Serialize, Serializer};
 use snake::{Energies, Ledger, Outcome, Snake};
 
-use crate::SceneError;
 use crate::scene::{Recording, Scene};
 use crate::write::write_whole;
+use crate::{Evidence, SceneError};
 
 /// One moment of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,6 +100,8 @@ pub struct Record {
     pub events: Vec<String>,
     /// How it ended.
     pub outcome: Outcome,
+    /// What speaks for the curves that came to rest in a picture, one after the other; for people, in no file.
+    pub evidence: Vec<Evidence>,
     /// What became of chosen sub-steps, and why they were no longer; for people, in no file.
     pub pace: Option<String>,
 }
@@ -183,6 +185,7 @@ impl Record {
             frames: Vec::new(),
             events: Vec::new(),
             outcome: Outcome::Finished { step: 0 },
+            evidence: Vec::new(),
             pace: None,
         }
     }

@@ -14,7 +14,7 @@ use crate::company::Company;
 use crate::hand::Hand;
 use crate::limits::{MOST_KEPT, MOST_SCENE_BYTES, MOST_STEPS};
 use crate::record::{Frame, Record};
-use crate::{Picture, SceneError, build, catalogue, read, toml_error};
+use crate::{Evidence, Picture, SceneError, build, catalogue, read, toml_error};
 
 /// How a drawing should look at a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -103,6 +103,25 @@ impl Plan {
         }
     }
 
+    /// Take steps of another length: the run takes as long as before, and what is kept is kept at the nearest times.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at least 0, and a number beyond u64 becomes the largest"
+    )]
+    pub fn set_step(&mut self, dt: f64) {
+        let ratio = self.dt / dt;
+        let scaled = |steps: u64| (steps as f64 * ratio).round() as u64;
+        if self.tolerance.is_none() {
+            self.until.steps = scaled(self.until.steps);
+            self.recording.every = self.recording.every.map(|every| scaled(every).max(1));
+            for step in &mut self.recording.steps {
+                *step = scaled(*step);
+            }
+        }
+        (self.dt, self.tolerance) = (dt, None);
+    }
+
     /// Steps that a run of `n` nodes may make before its record is too long.
     fn room(&self, n: usize) -> u64 {
         let most = self.until.steps;
@@ -145,6 +164,8 @@ pub struct Scene {
     pub start: State,
     /// How to run it.
     pub plan: Plan,
+    /// The least distance of two edges that the smoothing of the picture keeps apart, if known. Pixels.
+    pub resolves: Option<f64>,
     /// What people should know of it though nothing is refused.
     pub notes: Vec<String>,
 }
@@ -377,6 +398,11 @@ impl Scene {
             record
                 .frames
                 .push(Frame::of(&mut self.snake, &state, keep, ledger.as_ref()));
+        }
+        if self.picture.is_some() && matches!(outcome, Outcome::Settled { .. }) {
+            let start = &self.start.x;
+            let found = Evidence::of(&mut self.snake, start, &state, self.resolves);
+            record.evidence.push(found);
         }
         record.events = events;
         record.outcome = outcome;

@@ -88,7 +88,10 @@ fn a_ball_that_hits_a_smooth_wall_squarely_does_not_bulge_along_it() {
         let mut scene = Scene::named("rigid-ball-impact").unwrap();
         scene.plan.scheme = scheme;
         let record = scene.run(&mut |_| ControlFlow::Continue(())).unwrap();
-        let (first, last) = (record.frames.first().unwrap(), record.frames.last().unwrap());
+        let (first, last) = (
+            record.frames.first().unwrap(),
+            record.frames.last().unwrap(),
+        );
         let center = |frame: &Frame| {
             let count = f64::from(u32::try_from(frame.nodes.len()).unwrap());
             frame.nodes.iter().map(|x| x.y).sum::<f64>() / count

@@ -259,10 +259,14 @@ impl Algebra {
                 Rule::Leapfrog => (0..n)
                     .map(|i| {
                         let kick = 0.5 * dt / after.mass[i];
-                        let whole = (seen[i] + kick * after.total[i])
-                            / (1.0 + kick * after.damping[i]);
+                        let whole =
+                            (seen[i] + kick * after.total[i]) / (1.0 + kick * after.damping[i]);
                         let support = touched.support.get(i).copied().unwrap_or_default();
-                        if held[i] { DVec2::ZERO } else { whole + support }
+                        if held[i] {
+                            DVec2::ZERO
+                        } else {
+                            whole + support
+                        }
                     })
                     .collect(),
             };

@@ -126,6 +126,7 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         company,
         start,
         plan,
+        resolves: None,
         notes,
     })
 }

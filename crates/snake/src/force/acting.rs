@@ -4,7 +4,7 @@ use elastic::{Bound, Profile};
 use glam::{DMat2, DVec2};
 use integrator::Fault;
 
-use super::{Curve, Force, Pull};
+use super::{Curve, Force, ImageForce, Pull, RegionForce, SignedEdgeForce};
 use crate::{Schedule, SnakeError};
 
 /// A force at work: with its weight along the curve and over time.
@@ -36,6 +36,14 @@ impl Acting {
             scratch: Vec::new(),
             slopes: Vec::new(),
         }
+    }
+
+    /// Whether it comes from a picture.
+    #[must_use]
+    pub fn is_of_picture(&self) -> bool {
+        self.downcast::<ImageForce>().is_some()
+            || self.downcast::<SignedEdgeForce>().is_some()
+            || self.downcast::<RegionForce>().is_some()
     }
 
     /// The same called `name`: its column in the ledger.
