@@ -100,6 +100,8 @@ pub struct Record {
     pub events: Vec<String>,
     /// How it ended.
     pub outcome: Outcome,
+    /// What people should know of the run; for people, in no file.
+    pub remarks: Vec<String>,
     /// What became of chosen sub-steps, and why they were no longer; for people, in no file.
     pub pace: Option<String>,
 }
@@ -183,6 +185,7 @@ impl Record {
             frames: Vec::new(),
             events: Vec::new(),
             outcome: Outcome::Finished { step: 0 },
+            remarks: scene.remarks(),
             pace: None,
         }
     }
