@@ -36,7 +36,7 @@ pub(crate) enum Held {
         /// What stands in its place while it does nothing.
         idle: Acting,
         /// What it would be on the curve at the start: as stiff as it will be.
-        full: Acting,
+        full: Box<Acting>,
     },
 }
 
@@ -61,7 +61,7 @@ impl Hand {
         for grip in &self.grips {
             if let Held::Force { full, .. } = &grip.held {
                 // it has the name and the place of one that passed at the door
-                let _ = replace(snake, full.clone());
+                let _ = replace(snake, Acting::clone(full));
             }
         }
     }

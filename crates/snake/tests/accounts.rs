@@ -1,6 +1,8 @@
 //! Accounts that must close where a term was left out before: absent inertial forces, holds, schemes without mass.
 #![allow(
     clippy::unwrap_used,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
     reason = "a test: a snake that cannot be built should stop it"
 )]
 

@@ -1,6 +1,8 @@
 //! How runs end: a crowd by the same words as a lone snake, and curves that turned over, lie flat or lie in each other.
 #![allow(
     clippy::unwrap_used,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
     clippy::panic,
     reason = "a test: a snake that cannot be built should stop it"
 )]

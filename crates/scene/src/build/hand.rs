@@ -41,7 +41,7 @@ pub(super) fn hand(
                 Held::Force {
                     text,
                     idle,
-                    full: acting,
+                    full: Box::new(acting),
                 }
             }
             _ => {
