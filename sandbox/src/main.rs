@@ -181,7 +181,7 @@ fn certificate(name: &str) -> Result<bool, SandboxError> {
         reason: error.to_string(),
     })?;
     println!("{}", scene.title);
-    print!("{}", Certificate::of(&scene.snake, None));
+    print!("{}", Certificate::of(&scene.of_the_run(), None));
     let here = Certificate::of(&scene.snake, Some(&scene.start));
     if scene.picture.is_some() {
         println!(

@@ -105,6 +105,12 @@ impl Operator {
         self.low_rank.as_ref().map_or(&[], |low| &low.columns)
     }
 
+    /// `U` and `S`, row by row, where there is a correction.
+    pub(crate) fn correction(&self) -> Option<(&[Vec<f64>], &[f64])> {
+        let low = self.low_rank.as_ref()?;
+        Some((&low.columns, &low.middle))
+    }
+
     /// The number of rows.
     #[must_use]
     #[allow(clippy::len_without_is_empty, reason = "a matrix has at least 3 rows")]

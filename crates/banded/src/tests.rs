@@ -5,6 +5,7 @@ mod complex;
 mod eigen;
 mod lanes;
 mod operator;
+mod slice;
 mod wide;
 
 use glam::DVec2;

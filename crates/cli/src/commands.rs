@@ -62,7 +62,7 @@ pub(crate) fn run(args: &args::Run) -> Answer {
     ];
     if args.certificate {
         scene.check().map_err(|error| by_flag(error, &flags))?;
-        let certificate = Certificate::of(&scene.snake, Some(&scene.start));
+        let certificate = Certificate::of(&scene.of_the_run(), None);
         for line in certificate.to_string().lines() {
             say(line);
         }
@@ -201,6 +201,9 @@ fn go(scene: &mut Scene, output: &Output, flags: &Flags<'_>) -> Answer {
     match outcome {
         Outcome::Diverged { .. } => say(&format!("{title}: {outcome}; no contour to write")),
         _ => say(&format!("{title}: {outcome}, t = {t:.6}")),
+    }
+    for remark in &record.remarks {
+        say(&format!("note: {remark}"));
     }
     if let Some(pace) = &record.pace {
         say(pace);

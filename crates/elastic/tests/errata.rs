@@ -138,12 +138,24 @@ fn d6_a_row_times_k_is_k_times_a_column_because_k_is_symmetric() {
     material.rigidity = (0..9).map(f64::from).collect::<Vec<_>>().into();
     for topology in [FREE, Topology::Closed, ANCHORED] {
         let k = stiffness(topology, &material, 1.3, 9).unwrap().dense();
-        let e: Vec<f64> = bent(9).iter().map(|v| v.y).collect();
-        let rows: Vec<&[f64]> = k.rows().collect();
-        let from_left: Vec<f64> = (0..9)
-            .map(|j| (0..9).map(|i| e[i] * rows[i][j]).sum())
-            .collect();
-        assert_eq!(from_left, k.multiply(&e), "{topology:?}");
+        // the force on node i of a push at node j, by the force's own formula, which asks no matrix
+        let push = |j: usize| -> Vec<f64> {
+            let mut e = vec![DVec2::ZERO; 9];
+            e[j].y = 1.0;
+            let force = forces(&e, topology, &material, 1.3);
+            force.iter().map(|f| -f.y).collect()
+        };
+        let columns: Vec<Vec<f64>> = (0..9).map(push).collect();
+        let most = columns
+            .iter()
+            .flatten()
+            .fold(0.0_f64, |a, b| a.max(b.abs()));
+        for (i, column) in columns.iter().enumerate() {
+            for (j, other) in columns.iter().enumerate() {
+                assert!((column[j] - other[i]).abs() < 1e-14 * most, "{topology:?}");
+                assert!((column[j] - k[(j, i)]).abs() < 1e-14 * most, "{topology:?}");
+            }
+        }
     }
 }
 

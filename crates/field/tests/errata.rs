@@ -64,8 +64,15 @@ fn largest(field: &ForceField, degrees: f64) -> Largest {
 
 #[test]
 fn d37_twenty_passes_are_the_reports() {
-    assert_eq!(REPORT_PASSES, 20);
-    assert!((Smoothing::Binomial(REPORT_PASSES).sigma() - 3.162).abs() < 3e-4);
+    // the report's figure: variance ½ a pass, so 10 pixels² for its twenty, measured on a point
+    let point = Grid::from_shape_fn((1, 101), |(_, x)| if x == 50 { 1.0 } else { 0.0 });
+    let spread = field::binomial_x(&point, REPORT_PASSES);
+    let variance: f64 = (0..101)
+        .map(|x| spread[[0, x]] * (x as f64 - 50.0).powi(2))
+        .sum();
+    assert!((variance - 10.0).abs() < 1e-9, "{variance}");
+    let told = Smoothing::Binomial(REPORT_PASSES).sigma();
+    assert!((told * told - variance).abs() < 1e-9);
 }
 
 #[test]
@@ -124,12 +131,13 @@ fn d40_each_mask_counts_twice() {
 #[test]
 fn d41_d42_turned_masks_turn_the_forces() {
     let [_, _, bx, by] = literal::masks();
-    // clockwise a quarter turn is the transpose here, anticlockwise (rot90) its negative
-    let clockwise = Grid::from_shape_fn((3, 3), |(i, j)| bx[[2 - j, i]]);
-    let anticlockwise = Grid::from_shape_fn((3, 3), |(i, j)| bx[[j, 2 - i]]);
-    assert_eq!(clockwise, by);
-    assert_eq!(by, bx.t());
-    assert_eq!(anticlockwise, -&by);
+    // on a picture that rises along y the y mask finds the slope that the x mask finds along x; turned the other way
+    // it would find its negative
+    let along_x = Grid::from_shape_fn((9, 9), |(_, x)| 3.0 * x as f64);
+    let along_y = Grid::from_shape_fn((9, 9), |(y, _)| 3.0 * y as f64);
+    let at = |picture: &Grid, mask: &Grid| literal::conv2(picture, mask)[[5, 5]];
+    assert_eq!((at(&along_x, &bx), at(&along_y, &by)), (6.0, 6.0));
+    assert_eq!((at(&along_y, &bx), at(&along_x, &by)), (0.0, 0.0));
     // conv2 turns the mask: bx gives right minus left, and used as correlation its negative
     let ramp = Grid::from_shape_fn((3, 3), |(_, x)| x as f64);
     let center = literal::conv2(&ramp, &bx)[[2, 2]];

@@ -1,6 +1,6 @@
 //! Sub-steps chosen by their error, for any scheme.
 
-use crate::dormand_prince::DormandPrince;
+use crate::dormand_prince::{DormandPrince, size};
 use crate::stepper::Clock;
 use crate::watched::{Watch, Watched};
 use crate::{Fault, Limit, Reason, Scheme, SchemeError, Start, State, Stepper, Summary, System};
@@ -31,7 +31,8 @@ const BELOW: f64 = 0.95;
 /// each new length with a step of Euler's, about 1/3). The same bytes every time. Half as many
 /// forces again as sub-steps. Memory: one stepper for each length in use, at most 25.
 ///
-/// [`Scheme::DormandPrince`] chooses its own sub-steps and is used as it is, by its own tolerance.
+/// [`Scheme::DormandPrince`] chooses its own sub-steps by its own error, which the tolerance holds: its parameter, the
+/// tolerance over the size of the curve, is this one's to set.
 #[derive(Debug)]
 pub struct Adaptive {
     scheme: Scheme,
@@ -110,10 +111,11 @@ impl Adaptive {
         }
         let mut own = None;
         let mut whole = None;
-        if let Scheme::DormandPrince { tolerance } = scheme {
-            own = Some(Box::new(DormandPrince::new(
-                system, state, output, tolerance,
-            )?));
+        if matches!(scheme, Scheme::DormandPrince { .. }) {
+            // relative to the size, within what doubles can hold
+            let relative = (tolerance / size(&state.x)).clamp(1e-14, 1.0);
+            let made = DormandPrince::new(system, state, output, relative)?;
+            own = Some(Box::new(made));
         } else {
             whole = Some(scheme.start(system, state, output, Start::SecondOrder)?);
         }

@@ -236,6 +236,7 @@ impl Collocation {
             }
             change = moved;
         }
+        system.gave_up();
         self.solve(system, &state.v);
         Ok(())
     }

@@ -69,8 +69,14 @@ const DENSE: [f64; STAGES] = [
 /// the tolerance asks for. Through [`advance`](Self::advance) it takes one step of its own choice, and
 /// [`at`](Self::at) tells where the nodes were at any time within it.
 ///
-/// The error of a sub-step is kept below `tolerance · (1 + |y|)` in the mean square over all
-/// positions and velocities. Six forces a sub-step, each with what schedules say at its own time. Contacts are met
+/// The error of a sub-step is kept below a length, in the mean square over all nodes:
+///
+/// ```text
+/// |error of x| ≤ ℓ,   |error of v| ≤ ℓ / L · max(V, L / 1000 h),   ℓ = tolerance · L
+/// ```
+///
+/// L is half the diagonal of the box around the nodes at the start (1 where they are one point), V the largest speed of a node so far.
+/// So neither the unit of length nor where the origin lies enters. Six forces a sub-step, each with what schedules say at its own time. Contacts are met
 /// at the ends of sub-steps.
 ///
 /// Dormand & Prince 1980; dense output after Hairer, Nørsett & Wanner, *Solving ODEs I*, II.6.
@@ -78,6 +84,9 @@ const DENSE: [f64; STAGES] = [
 pub struct DormandPrince {
     clock: Clock,
     tolerance: f64,
+    /// L, and V.
+    size: f64,
+    fastest: f64,
     /// The sub-step to try next.
     try_next: f64,
     last_error: f64,
@@ -129,6 +138,8 @@ impl DormandPrince {
         Ok(Self {
             clock: Clock::new(state, dt),
             tolerance,
+            size: size(&state.x),
+            fastest: 0.0,
             try_next: dt,
             last_error: 1.0,
             span: (state.t, 0.0),
@@ -295,15 +306,18 @@ impl DormandPrince {
     /// Estimated error over tolerance: at most 1 is good enough.
     fn error(&self, h: f64) -> f64 {
         let mut sum = 0.0;
+        let speeds = self.from.v.iter().chain(&self.to.v).map(|v| v.length());
+        let fastest = speeds
+            .fold(self.fastest, f64::max)
+            .max(1e-3 * self.size / h);
         for i in 0..self.from.len() {
             let (mut dx, mut dv) = (DVec2::ZERO, DVec2::ZERO);
             for (j, &e) in ERROR.iter().enumerate() {
                 dx += e * self.stages_x[j][i];
                 dv += e * self.stages_v[j][i];
             }
-            let scale = |a: DVec2, b: DVec2| DVec2::ONE + a.abs().max(b.abs());
-            sum += (h * dx / scale(self.from.x[i], self.to.x[i])).length_squared();
-            sum += (h * dv / scale(self.from.v[i], self.to.v[i])).length_squared();
+            sum += (h * dx / self.size).length_squared();
+            sum += (h * dv / fastest).length_squared();
         }
         let error = (sum / (4.0 * self.from.len() as f64)).sqrt() / self.tolerance;
         if error.is_nan() { f64::INFINITY } else { error }
@@ -311,6 +325,8 @@ impl DormandPrince {
 
     fn accept(&mut self, system: &mut dyn System, t: f64, h: f64) -> Result<(), Fault> {
         self.to.t = t + h;
+        let speeds = self.to.v.iter().map(|v| v.length());
+        self.fastest = speeds.fold(self.fastest, f64::max);
         let moment = Moment {
             t: t + h,
             dt: h,
@@ -320,6 +336,20 @@ impl DormandPrince {
         let touched = self.contacts.meet(system, moment, &self.from.x, x, v)?;
         self.ready = !touched;
         Ok(())
+    }
+}
+
+/// Half the diagonal of the box around some points, or 1 where they are one.
+pub(crate) fn size(x: &[DVec2]) -> f64 {
+    let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let (low, high) = x
+        .iter()
+        .fold(none, |(low, high), p| (low.min(*p), high.max(*p)));
+    let half = 0.5 * low.distance(high);
+    if half > 0.0 && half.is_finite() {
+        half
+    } else {
+        1.0
     }
 }
 

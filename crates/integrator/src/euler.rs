@@ -42,7 +42,8 @@ impl Rule {
 ///
 /// `f` is at the start of the step, or at its end ([`Rule::Backward`]): then the same factor is used
 /// in a few rounds, until two agree. Where they do not (an external force that changes more
-/// over one step than the step's own inertia and stiffness resist), the first round stands.
+/// over one step than the step's own inertia and stiffness resist), the first round stands, which is a step of
+/// [`Rule::Imex`]; the system is told of each ([`System::gave_up`]).
 /// [`Rule::GradientFlow`] leaves out μ whatever it is.
 #[derive(Debug)]
 pub(crate) struct Euler {
@@ -140,6 +141,7 @@ impl Euler {
         }
         self.force.copy_from_slice(&self.first);
         self.place(x);
+        system.gave_up();
         Ok(())
     }
 }

@@ -54,29 +54,33 @@ impl Loads {
 }
 
 /// Whether a step is stable in the report's scheme: 4 M − 2 dt C − dt² K positive definite.
+///
+/// Internal damping is in C as β K: exact where the body has no tether, which it leaves alone, and else a bound.
 fn report_stable(system: &dyn System) -> impl Fn(f64) -> bool {
     let loads = Loads::new(system);
+    let late = 2.0 * system.internal_damping();
     move |dt| {
         let diagonal = |i: usize| {
             let damping = loads.damping[i] + loads.contact_damping[i];
             4.0 * loads.mass[i] - 2.0 * dt * damping - dt * dt * loads.contact[i]
         };
         let diagonal: Vec<f64> = (0..loads.mass.len()).map(diagonal).collect();
-        positive(system.stiffness(), -dt * dt, &diagonal)
+        positive(system.stiffness(), -dt * (dt + late), &diagonal)
     }
 }
 
 /// Whether a step is stable in leapfrog: 4 M − dt² K positive definite, whatever the damping.
 ///
-/// The damping of penalty contacts is evaluated half a step late and does count, as in the report's.
+/// The damping of penalty contacts and of the body itself is evaluated half a step late and does count, as in the report's.
 fn leapfrog_stable(system: &dyn System) -> impl Fn(f64) -> bool {
     let loads = Loads::new(system);
+    let late = 2.0 * system.internal_damping();
     move |dt| {
         let diagonal = |i: usize| {
             4.0 * loads.mass[i] - 2.0 * dt * loads.contact_damping[i] - dt * dt * loads.contact[i]
         };
         let diagonal: Vec<f64> = (0..loads.mass.len()).map(diagonal).collect();
-        positive(system.stiffness(), -dt * dt, &diagonal)
+        positive(system.stiffness(), -dt * (dt + late), &diagonal)
     }
 }
 
@@ -218,7 +222,8 @@ pub(crate) fn by_modes(scheme: Scheme, system: &dyn System) -> Option<f64> {
         return None;
     }
     let explicit = scheme == Scheme::Rk4;
-    if !explicit && contact == (0.0, 0.0) {
+    let inner = system.internal_damping();
+    if !explicit && contact == (0.0, 0.0) && inner <= 0.0 {
         return None;
     }
     let scheme = in_rounds(scheme);
@@ -281,7 +286,7 @@ pub(crate) fn by_modes(scheme: Scheme, system: &dyn System) -> Option<f64> {
                     damping: if massless { 1.0 } else { damping },
                     stiffness,
                     slope: slope * share(k, 4),
-                    drag: drag * share(k, 4),
+                    drag: drag * share(k, 4) + inner * stiffness,
                 };
                 scheme.growth(mode, dt) <= 1.0 + MARGINAL
             })

@@ -22,7 +22,11 @@ impl Limit {
     pub fn of(scheme: Scheme, system: &dyn System) -> Option<Self> {
         let dt = scheme.step_limit(system)?;
         let of = if system.contact_stiffness() == (0.0, 0.0) {
-            "the elastic force"
+            if system.internal_damping() > 0.0 {
+                "the elastic force and internal damping"
+            } else {
+                "the elastic force"
+            }
         } else {
             "the elastic force and the contacts"
         };

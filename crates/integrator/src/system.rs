@@ -242,9 +242,25 @@ pub trait System {
         let _ = state;
     }
 
+    /// The rounds of an implicit step have not come to agree, and the step was made by those there were: it loses its order, and
+    /// backward Euler's is one of imex. For whoever counts such steps.
+    fn gave_up(&mut self) {}
+
+    /// A frame that moves by an equation of its own, with an inertial force left out of it, has put that energy in, or taken
+    /// it out, during the step: for whoever keeps account of it.
+    fn frame_work(&mut self, work: f64) {
+        let _ = work;
+    }
+
     /// Largest stiffness and damping that a penalty contact adds at one node, for step limits.
     fn contact_stiffness(&self) -> (f64, f64) {
         (0.0, 0.0)
+    }
+
+    /// β: the external force holds a damping between nodes of at most β times the stiffness, which schemes see half a step
+    /// late, for step limits. T.
+    fn internal_damping(&self) -> f64 {
+        0.0
     }
 
     /// ∂(external force)/∂(position) of each node, for linearly implicit schemes.

@@ -115,9 +115,24 @@ pub trait Wrapped {
         self.inner_mut().passed(state);
     }
 
+    /// See [`System::gave_up`].
+    fn gave_up(&mut self) {
+        self.inner_mut().gave_up();
+    }
+
+    /// See [`System::frame_work`].
+    fn frame_work(&mut self, work: f64) {
+        self.inner_mut().frame_work(work);
+    }
+
     /// See [`System::contact_stiffness`].
     fn contact_stiffness(&self) -> (f64, f64) {
         self.inner().contact_stiffness()
+    }
+
+    /// See [`System::internal_damping`].
+    fn internal_damping(&self) -> f64 {
+        self.inner().internal_damping()
     }
 
     /// See [`System::external_slope`].
@@ -192,8 +207,20 @@ impl<T: Wrapped> System for T {
         Wrapped::passed(self, state);
     }
 
+    fn gave_up(&mut self) {
+        Wrapped::gave_up(self);
+    }
+
+    fn frame_work(&mut self, work: f64) {
+        Wrapped::frame_work(self, work);
+    }
+
     fn contact_stiffness(&self) -> (f64, f64) {
         Wrapped::contact_stiffness(self)
+    }
+
+    fn internal_damping(&self) -> f64 {
+        Wrapped::internal_damping(self)
     }
 
     fn external_slope(&mut self, t: f64, x: &[DVec2], slope: &mut [DMat2]) -> bool {

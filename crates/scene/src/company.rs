@@ -8,7 +8,7 @@ use snake::{
 };
 
 use crate::record::{Curve, Frame, Record};
-use crate::scene::Scene;
+use crate::scene::{Scene, unsettled};
 use crate::{Evidence, SceneError};
 
 /// Whom a scene's snake shares its world with, and how curves are kept in order.
@@ -40,55 +40,38 @@ impl Scene {
         let mut snakes = vec![(self.snake.clone(), self.start.clone())];
         snakes.extend(company.others.iter().cloned());
         let snakes_at_start: Vec<_> = snakes.iter().map(|(_, state)| state.x.clone()).collect();
-        let crowd = Crowd::new(snakes, timing, company.contact, company.upkeep);
-        let mut crowd = crowd.map_err(|error| refused(&error))?;
-        if let Some(rest) = plan.until.rest {
-            crowd.watch(rest);
+        let (from, to) = self.span();
+        for (snake, _) in &mut snakes {
+            snake.run_between(from, to);
         }
         let keep = plan.recording.sorted();
-        if !keep.energies {
-            crowd = crowd.without_account();
-        }
+        let begin = if keep.energies {
+            Crowd::new
+        } else {
+            Crowd::unbooked
+        };
+        let crowd = begin(snakes, timing, company.contact, company.upkeep);
+        let mut crowd = crowd.map_err(|error| refused(&error))?;
         let mut record = Record::of(self);
         record.terms = Energies::names_with(crowd.orders(), Crowd::FORCES.into_iter());
-        record
-            .frames
-            .push(frame(&mut crowd, keep.velocities, keep.energies));
-        let mut outcome = None;
-        while outcome.is_none() && crowd.steps() < plan.until.steps {
-            if let Err(error) = crowd.step() {
-                let CrowdError::Fault { fault, .. } = error else {
-                    return Err(refused(&error));
-                };
-                outcome = Some(Outcome::Diverged {
-                    step: crowd.steps(),
-                    node: fault.node,
-                });
-                break;
+        let frames = &mut record.frames;
+        frames.push(frame(&mut crowd, keep.velocities, keep.energies));
+        let outcome = crowd.run(&plan.until, &mut |crowd| {
+            if keep.keeps(crowd.steps()) {
+                frames.push(frame(crowd, keep.velocities, keep.energies));
             }
-            let step = crowd.steps();
-            if keep.keeps(step) {
-                record
-                    .frames
-                    .push(frame(&mut crowd, keep.velocities, keep.energies));
+            match crowd.members().first() {
+                Some(first) => observer(&first.state),
+                None => ControlFlow::Continue(()),
             }
-            let Some(first) = crowd.members().first() else {
-                outcome = Some(Outcome::Collapsed { step });
-                break;
-            };
-            if observer(&first.state).is_break() {
-                outcome = Some(Outcome::Stopped { step });
-            } else if plan.until.rest.is_some() && crowd.is_at_rest() {
-                outcome = Some(Outcome::Settled { step });
-            }
-        }
+        });
+        let outcome = outcome.map_err(|error| refused(&error))?;
         let step = crowd.steps();
-        if record.frames.last().is_none_or(|frame| frame.step != step) {
-            record
-                .frames
-                .push(frame(&mut crowd, keep.velocities, keep.energies));
+        let last = frames.last().is_some_and(|frame| frame.step == step);
+        if !last && !matches!(outcome, Outcome::Diverged { .. }) {
+            frames.push(frame(&mut crowd, keep.velocities, keep.energies));
         }
-        if self.picture.is_some() && matches!(outcome, Some(Outcome::Settled { .. })) {
+        if self.picture.is_some() && matches!(outcome, Outcome::Settled { .. }) {
             for member in crowd.members() {
                 // curves that were born on the way began where they are
                 let start = snakes_at_start.get(member.id).unwrap_or(&member.state.x);
@@ -99,7 +82,10 @@ impl Scene {
         }
         record.events = crowd.events().iter().map(said).collect();
         record.pace = crowd.summary().map(|summary| summary.to_string());
-        record.outcome = outcome.unwrap_or(Outcome::Finished { step });
+        let snakes = crowd.members().iter().map(|member| &member.snake);
+        let said = snakes.filter_map(|snake| unsettled(snake, plan.scheme));
+        record.remarks.extend(said.take(1));
+        record.outcome = outcome;
         Ok(record)
     }
 }

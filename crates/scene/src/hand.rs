@@ -35,6 +35,8 @@ pub(crate) enum Held {
         text: Box<ForceText>,
         /// What stands in its place while it does nothing.
         idle: Acting,
+        /// What it would be on the curve at the start: as stiff as it will be.
+        full: Box<Acting>,
     },
 }
 
@@ -52,6 +54,16 @@ impl Hand {
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.grips.is_empty()
+    }
+
+    /// Let all forces of all hands act at once, for step limits.
+    pub(crate) fn take_all(&self, snake: &mut Snake) {
+        for grip in &self.grips {
+            if let Held::Force { full, .. } = &grip.held {
+                // it has the name and the place of one that passed at the door
+                let _ = replace(snake, Acting::clone(full));
+            }
+        }
     }
 
     /// When the last of them has come, and gone if it goes.
@@ -83,7 +95,7 @@ impl Hand {
             if !self.active[i] && now >= grip.from && now < grip.until {
                 match &grip.held {
                     Held::Nodes(nodes) => hold(snake, nodes, true)?,
-                    Held::Force { text, idle } => self.put(snake, text, idle, state)?,
+                    Held::Force { text, idle, .. } => self.put(snake, text, idle, state)?,
                 }
                 self.active[i] = true;
                 said.push(self.say(state.t, i, "takes hold of"));

@@ -102,6 +102,8 @@ pub struct Record {
     pub outcome: Outcome,
     /// What speaks for the curves that came to rest in a picture, one after the other; for people, in no file.
     pub evidence: Vec<Evidence>,
+    /// What people should know of the run; for people, in no file.
+    pub remarks: Vec<String>,
     /// What became of chosen sub-steps, and why they were no longer; for people, in no file.
     pub pace: Option<String>,
 }
@@ -186,6 +188,7 @@ impl Record {
             events: Vec::new(),
             outcome: Outcome::Finished { step: 0 },
             evidence: Vec::new(),
+            remarks: scene.remarks(),
             pace: None,
         }
     }

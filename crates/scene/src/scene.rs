@@ -2,12 +2,15 @@
 
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::str::FromStr;
 use std::sync::Arc;
 
 use field::ForceField;
 use glam::DVec2;
 use integrator::{Scheme, SchemeError, Start, State};
-use snake::{Ledger, Outcome, Pace, Snake, Term, Tips, Turning, TurningStepper, Until};
+use snake::{
+    Certificate, Ledger, Outcome, Pace, Snake, Term, Tips, Turning, TurningStepper, Until,
+};
 
 use crate::build::{USUAL_TOLERANCE, number};
 use crate::company::Company;
@@ -205,17 +208,49 @@ impl Scene {
         build::build(name, &toml_error::parse(text)?, folder)
     }
 
-    /// Largest stable step of the scene's scheme, picture left out (errata §7); `None` if any is.
+    /// Largest stable step of the scene's scheme wherever the curve may go and at all times of the run; `None` if any
+    /// is stable. What [`Scene::check`] refuses by, and what [`snake::Certificate`] says.
     #[must_use]
     pub fn step_limit(&self) -> Option<f64> {
-        let scheme = self.plan.scheme;
-        match self.snake.at_its_hardest() {
-            None => scheme.step_limit(&self.snake),
-            Some(hardest) => {
-                let limits = hardest.iter().filter_map(|snake| scheme.step_limit(snake));
-                limits.min_by(f64::total_cmp)
-            }
+        Certificate::limit(&self.of_the_run(), self.plan.scheme).map(|limit| limit.dt)
+    }
+
+    /// What has no effect under the scheme that the plan names.
+    pub(crate) fn remarks(&self) -> Vec<String> {
+        let mut starts = vec![&self.start];
+        if let Some(company) = &self.company {
+            starts.extend(company.others.iter().map(|(_, start)| start));
         }
+        let moves = |start: &&State| start.v.iter().any(|v| *v != DVec2::ZERO);
+        let mut remarks = Vec::new();
+        if self.plan.scheme == Scheme::GradientFlow && starts.iter().any(moves) {
+            remarks.push(
+                "gradient-flow has no inertia: the velocity given at the start has no effect"
+                    .to_owned(),
+            );
+        }
+        remarks
+    }
+
+    /// The snake, told when it is to run.
+    #[must_use]
+    pub fn of_the_run(&self) -> Snake {
+        let mut snake = self.snake.clone();
+        let (from, to) = self.span();
+        snake.run_between(from, to);
+        self.hand.take_all(&mut snake);
+        snake
+    }
+
+    /// When the run begins, and when it ends at the latest.
+    pub(crate) fn span(&self) -> (f64, f64) {
+        let (plan, begin) = (&self.plan, self.start.t);
+        let end = match plan.until.time {
+            Some(time) if plan.each => time,
+            Some(time) => time.min(begin + plan.until.steps as f64 * plan.dt),
+            None => begin + plan.until.steps as f64 * plan.dt,
+        };
+        (begin, end)
     }
 
     /// Whether the plan can be carried out: what [`Scene::run`] asks before the first step.
@@ -265,6 +300,31 @@ impl Scene {
         }
         if let Some(tolerance) = plan.tolerance {
             number::above_zero("run.tolerance", tolerance)?;
+            if let Some(own) = plan.scheme.parameter()
+                && matches!(plan.scheme, Scheme::DormandPrince { .. })
+                && Scheme::from_str(plan.scheme.name()).is_ok_and(|usual| usual != plan.scheme)
+            {
+                let message = format!(
+                    "chosen steps are held to run.tolerance = {tolerance} pixels, so dormand-prince must have no tolerance of its \
+                     own, got {own}"
+                );
+                return Err(SceneError::key("run.scheme", message));
+            }
+            if let Some(limit) = self.step_limit().filter(|limit| *limit > 0.0) {
+                let outputs = if plan.each {
+                    1.0
+                } else {
+                    plan.until.steps as f64
+                };
+                let least = outputs * plan.dt / limit;
+                if least > MOST_STEPS as f64 {
+                    let message = format!(
+                        "asks for {least:.1e} sub-steps at the least, as none may be longer than {limit:.3e}; must be at most \
+                         {MOST_STEPS}"
+                    );
+                    return Err(SceneError::key("run.output", message));
+                }
+            }
             if self.company.is_some() && plan.each {
                 let message = "snakes that meet are written at times they share; a time between steps would do";
                 return Err(SceneError::key("run.output", message));
@@ -290,7 +350,7 @@ impl Scene {
         }
         // sub-steps stay below the limit by themselves
         let force = plan.force || plan.tolerance.is_some();
-        self.snake
+        self.of_the_run()
             .check_step(plan.scheme, plan.dt, force)
             .map_err(|e| refused(&e))
     }
@@ -329,6 +389,8 @@ impl Scene {
     ) -> Result<Record, SceneError> {
         let plan = self.plan.clone();
         let mut state = self.start.clone();
+        let (from, to) = self.span();
+        self.snake.run_between(from, to);
         let (mut hand, slack) = (self.hand.clone(), 1e-9 * plan.dt);
         let mut refusal = None;
         let mut events = hand.act(&mut self.snake, &state, slack)?;
@@ -405,6 +467,7 @@ impl Scene {
             record.evidence.push(found);
         }
         record.events = events;
+        record.remarks.extend(unsettled(&self.snake, plan.scheme));
         record.outcome = outcome;
         record.pace = pace.summary().map(ToString::to_string);
         let short = until.time.is_some_and(|end| state.t < end);
@@ -417,6 +480,18 @@ impl Scene {
         }
         Ok(record)
     }
+}
+
+/// What to say of implicit steps whose rounds did not come to agree.
+pub(crate) fn unsettled(snake: &Snake, scheme: Scheme) -> Option<String> {
+    let count = snake.unsettled();
+    (count > 0).then(|| {
+        format!(
+            "the rounds of {count} steps of {} did not come to agree, so these are of lower order (those of backward-euler \
+             are steps of imex); a smaller step mends it",
+            scheme.name()
+        )
+    })
 }
 
 /// What makes the steps that a plan asks for.

@@ -297,7 +297,10 @@ fn the_third_order_closes_the_account_and_lowers_the_step_as_theory_says() {
     let h = scene.snake.body().spacing;
     let steep = 4.0 / (h * h);
     let limit = 2.0 / (5.0 * steep + 1e4 * steep.powi(3)).sqrt();
-    assert!((scene.step_limit().unwrap() / limit - 1.0).abs() < 1e-9);
+    // without the slope of the picture
+    let elastic = scene.plan.scheme.step_limit(&scene.snake).unwrap();
+    assert!((elastic / limit - 1.0).abs() < 1e-9);
+    assert!(scene.step_limit().unwrap() <= limit);
     let record = run(&mut scene);
     assert!(record.terms.iter().any(|name| name == "higher"));
     let total = |k: usize| record.frames[k].energies.as_ref().unwrap().total();
@@ -367,11 +370,11 @@ fn orders_above_the_second_go_with_all_that_a_body_does() {
         let found = strays(&[(from, to)]);
         assert!(found < allowed, "{to}: {found:e}");
     }
-    // drawn out to 1.6 times its rest shape, which goes with the nodes that are put in
+    // grows to twice its start, and its rest shape goes with the nodes that are put in
     let drawn = [
         (
             "radius = 30.0 } }",
-            "radius = 45.0 } }\nrest = { circle = { center = [49.0, 47.0], radius = 28.0 } }",
+            "radius = 20.0 } }\nrest = { circle = { center = [49.0, 47.0], radius = 44.0 } }",
         ),
         ("[material]", "[upkeep]\nstretch = 1.5\n[material]"),
         ("dt = 0.01", "dt = 0.01\nscheme = \"newmark\""),
@@ -381,9 +384,13 @@ fn orders_above_the_second_go_with_all_that_a_body_does() {
     let kept = |k: usize| record.frames[k].energies.clone().unwrap();
     let (first, last) = (kept(0), kept(record.frames.len() - 1));
     let put_in = last.upkeep.abs();
-    assert!(record.frames[record.frames.len() - 1].nodes.len() > 60);
-    assert!((last.total() - first.total()).abs() < 1e-3 * first.total());
-    assert!(put_in > 0.0 && put_in < 1e-2 * first.total());
+    let nodes = record.frames[record.frames.len() - 1].nodes.len();
+    assert!(nodes > 60, "{nodes}");
+    let off = (last.total() - first.total()).abs();
+    assert!(
+        put_in > 0.0 && off < 2e-3 * put_in.max(first.total()),
+        "{off} {put_in}"
+    );
     assert!(!record.events.is_empty());
 }
 

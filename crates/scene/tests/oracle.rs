@@ -99,7 +99,8 @@ fn snake_run(name: &str) {
     assert!((scene.snake.body().spacing - number("h")).abs() < 1e-12 * number("h"));
     // ours is the limit of K, the oracle's that of K P, which is never stricter (errata §7); where the
     // highest mode moves the mean a little they differ in the sixth digit
-    let limit = scene.step_limit().unwrap() / number("dt_limit_without_image");
+    let elastic = scene.plan.scheme.step_limit(&scene.snake).unwrap();
+    let limit = elastic / number("dt_limit_without_image");
     assert!(
         (1.0 - 1e-5..=1.0 + 1e-9).contains(&limit),
         "limit is {limit} of the one claimed"

@@ -11,9 +11,24 @@ use crate::{Curve, Energies, Snake};
 pub(crate) struct Account {
     /// Contacts since last asked.
     contact: Option<Touched>,
-    /// Sub-steps that ended since last asked, and what was touched at their ends.
-    trail: Vec<(State, Option<Touched>)>,
+    /// Sub-steps that ended since last asked.
+    trail: Vec<Passed>,
+    /// Work of a frame of its own equation since last asked.
+    frame: f64,
 }
+
+/// A sub-step that ended.
+#[derive(Debug, Clone)]
+pub(crate) struct Passed {
+    pub(crate) state: State,
+    /// What was touched since the one before.
+    pub(crate) touched: Option<Touched>,
+    /// Whether it stands for more than one.
+    pub(crate) coarse: bool,
+}
+
+/// Numbers that the trail of sub-steps may hold: a step of more than that is booked by every second of them, every fourth, …
+const TRAIL: usize = 1 << 20;
 
 /// What contacts have done within one step or sub-step.
 #[derive(Debug, Clone, Default)]
@@ -26,6 +41,28 @@ pub(crate) struct Touched {
     pub(crate) support: Vec<DVec2>,
     /// What they have taken, as far as places and velocities say at the moment of each.
     pub(crate) lost: f64,
+}
+
+/// Every second of these sub-steps, each with the contacts of both.
+fn thinned(trail: Vec<Passed>) -> Vec<Passed> {
+    let mut kept = Vec::with_capacity(trail.len());
+    let mut each = trail.into_iter();
+    while let Some(first) = each.next() {
+        let Some(mut second) = each.next() else {
+            kept.push(first);
+            break;
+        };
+        second.coarse = true;
+        second.touched = match (first.touched, second.touched) {
+            (Some(one), Some(two)) => Some(Touched {
+                lost: one.lost + two.lost,
+                ..two
+            }),
+            (one, two) => one.or(two),
+        };
+        kept.push(second);
+    }
+    kept
 }
 
 impl Snake {
@@ -85,7 +122,7 @@ impl Snake {
             ..Energies::default()
         };
         let mass = by_place.times(3, &body.mass);
-        for (i, &v) in v.iter().enumerate() {
+        for (i, &v) in v.iter().enumerate().filter(|_| self.inertia) {
             energies.kinetic += 0.5 * h * (common * mass.at(i)) * v.length_squared();
         }
         self.deformation = e;
@@ -103,8 +140,21 @@ impl Snake {
         account.and_then(|account| account.contact.take())
     }
 
+    /// What a frame of its own equation has put in since last asked.
+    pub(crate) fn take_frame_work(&mut self) -> f64 {
+        let account = self.account.as_mut();
+        account.map_or(0.0, |account| std::mem::take(&mut account.frame))
+    }
+
+    /// A frame of its own equation has put that in.
+    pub(crate) fn note_frame_work(&mut self, work: f64) {
+        if let Some(account) = &mut self.account {
+            account.frame += work;
+        }
+    }
+
     /// Sub-steps since last asked.
-    pub(crate) fn take_trail(&mut self) -> Vec<(State, Option<Touched>)> {
+    pub(crate) fn take_trail(&mut self) -> Vec<Passed> {
         let account = self.account.as_mut();
         account.map_or_else(Vec::new, |account| std::mem::take(&mut account.trail))
     }
@@ -112,8 +162,15 @@ impl Snake {
     /// A sub-step ended here.
     pub(crate) fn note_passed(&mut self, state: &State) {
         if let Some(account) = &mut self.account {
-            let contact = account.contact.take();
-            account.trail.push((state.clone(), contact));
+            let touched = account.contact.take();
+            if account.trail.len() >= (TRAIL / state.len().max(1)).clamp(16, 1024) {
+                account.trail = thinned(std::mem::take(&mut account.trail));
+            }
+            account.trail.push(Passed {
+                state: state.clone(),
+                touched,
+                coarse: false,
+            });
         }
     }
 
@@ -191,5 +248,41 @@ impl Snake {
             lost: earlier + lost,
         });
         self.account = Some(account);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use elastic::Topology;
+
+    use super::*;
+    use crate::{Body, World};
+
+    #[test]
+    fn a_step_of_any_number_of_sub_steps_keeps_a_bounded_trail_with_all_that_was_touched() {
+        let x = elastic::circle(DVec2::ZERO, 5.0, 10);
+        let body =
+            Body::of(&x, Topology::Closed, 1.0).unwrap_or_else(|error| unreachable!("{error}"));
+        let snake = Snake::new(body, World::default());
+        let mut snake = snake.unwrap_or_else(|error| unreachable!("{error}"));
+        snake.keep_account();
+        let mut state = State::at_rest(x);
+        for k in 0..100_000_u32 {
+            state.t = f64::from(k);
+            if let Some(account) = snake.account.as_mut() {
+                account.contact = (k % 3 == 0).then(|| Touched {
+                    lost: 1.0,
+                    ..Touched::default()
+                });
+            }
+            snake.note_passed(&state);
+        }
+        let trail = snake.take_trail();
+        assert!(trail.len() <= 1024, "{}", trail.len());
+        let lost = trail.iter().filter_map(|passed| passed.touched.as_ref());
+        let lost: f64 = lost.map(|touched| touched.lost).sum();
+        assert!((lost - 33_334.0).abs() < 1e-9, "{lost}");
+        assert!(trail.windows(2).all(|w| w[0].state.t < w[1].state.t));
+        assert!((state.t - trail[trail.len() - 1].state.t).abs() < 1e-9);
     }
 }

@@ -159,6 +159,17 @@ impl Algebra {
         Ok(())
     }
 
+    /// The same where the scheme goes on.
+    pub(crate) fn go_on(
+        &mut self,
+        snake: &mut Snake,
+        state: &State,
+        bookings: &[Booking],
+    ) -> Result<(), Fault> {
+        self.catches_up = false;
+        self.begin(snake, state, bookings)
+    }
+
     /// The same where the scheme begins again as well.
     pub(crate) fn resume(&mut self) {
         self.catches_up = self.rule == Rule::Report;

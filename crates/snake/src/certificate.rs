@@ -2,52 +2,14 @@
 
 use std::fmt;
 
-use banded::{Circulant, Dense};
 use glam::DVec2;
 use integrator::{Fault, Limit, Scheme, State, System};
 
+use crate::modes::{ModeOfMotion, fastest, free, modes};
 use crate::{Acting, ImageForce, Pull, RegionForce, SignedEdgeForce, Snake};
-
-/// The most nodes whose modes are found one by one where the curve is not a ring of equal nodes.
-const MOST: usize = 400;
 
 /// Rest: a deformation has fallen to this share of what it was.
 const REST: f64 = 0.01;
-
-/// One way for the whole curve to move, as a damped oscillator `ü + 2 ζ ω u̇ + ω² u = 0`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ModeOfMotion {
-    /// ω: its frequency without damping. T⁻¹. 0: nothing brings it back.
-    pub frequency: f64,
-    /// γ/(2μ) as this mode feels it. T⁻¹.
-    pub fading: f64,
-}
-
-impl ModeOfMotion {
-    /// ζ: below 1 it rings, above 1 it creeps, at 1 it is first at rest. Infinite where ω = 0.
-    #[must_use]
-    pub fn damping_ratio(&self) -> f64 {
-        if self.frequency > 0.0 || self.fading > 0.0 {
-            self.fading / self.frequency
-        } else {
-            0.0
-        }
-    }
-
-    /// The rate at which it decays in the end: the slower of its two roots; for ω = 0, that of its
-    /// velocity. T⁻¹.
-    #[must_use]
-    pub fn decay(&self) -> f64 {
-        let (b, w) = (self.fading, self.frequency);
-        if w > 0.0 && b > w {
-            w * (w / (b + ((b - w) * (b + w)).sqrt()))
-        } else if w > 0.0 {
-            b
-        } else {
-            2.0 * b
-        }
-    }
-}
 
 /// What a snake's parameters say about its motion, before a step is made.
 ///
@@ -59,7 +21,7 @@ impl ModeOfMotion {
 ///
 /// Parameters are those of the time the snake stands at (and of the place, where a state is given). Modes are exact where γ/μ is the same at every
 /// node, and of first order in its differences otherwise. O(n log n) for a closed curve of equal
-/// nodes, O(n³) for others up to 400 nodes, and only the outermost modes beyond: O(n).
+/// nodes, O(n³) for others up to 400 nodes, and beyond only the slowest and the fastest: O(n).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Certificate {
     /// Nodes.
@@ -75,7 +37,11 @@ pub struct Certificate {
     /// The largest step of each scheme of [`Scheme::ALL`], image and contacts counted; None where
     /// no step is too large.
     pub steps: Vec<(Scheme, Option<f64>)>,
-    /// All modes from the slowest up, or the outermost two (see [`Certificate::complete`]).
+    /// Whether that holds wherever the nodes go and whatever schedules say during the run, or only for
+    /// forces as they are at one state.
+    pub anywhere: bool,
+    /// All modes from the slowest up; or those that nothing brings back, the slowest of the others, and the fastest (see
+    /// [`Certificate::complete`]).
     pub modes: Vec<ModeOfMotion>,
     /// Whether `modes` are all of them.
     pub complete: bool,
@@ -87,21 +53,38 @@ impl Certificate {
     /// shortest steps.
     #[must_use]
     pub fn of(snake: &Snake, state: Option<&State>) -> Self {
-        let hardest = snake.at_its_hardest().filter(|_| state.is_none());
-        let Some([damped, light]) = hardest else {
+        if state.is_some() {
             return Self::as_it_is(snake, state);
-        };
-        let (mut one, other) = (Self::as_it_is(&damped, None), Self::as_it_is(&light, None));
-        for ((_, limit), (_, other)) in one.steps.iter_mut().zip(other.steps) {
-            *limit = match (*limit, other) {
-                (Some(a), Some(b)) => Some(a.min(b)),
-                (a, b) => a.or(b),
-            };
+        }
+        let hardest = snake.at_its_hardest();
+        let first = hardest.first().filter(|_| !snake.body().maps.is_empty());
+        let mut one = Self::as_it_is(first.unwrap_or(snake), None);
+        for other in &hardest {
+            let other = Self::bounds(other, None);
+            one.elastic = one.elastic.max(other.elastic);
+            one.image = one.image.max(other.image);
+            one.contact = one.contact.max(other.contact);
+            for ((_, limit), (_, other)) in one.steps.iter_mut().zip(other.steps) {
+                *limit = match (*limit, other) {
+                    (Some(a), Some(b)) => Some(a.min(b)),
+                    (a, b) => a.or(b),
+                };
+            }
         }
         one
     }
 
     fn as_it_is(snake: &Snake, state: Option<&State>) -> Self {
+        let (modes, complete) = modes(snake);
+        Self {
+            modes,
+            complete,
+            ..Self::bounds(snake, state)
+        }
+    }
+
+    /// All but the modes.
+    fn bounds(snake: &Snake, state: Option<&State>) -> Self {
         let least = free(snake, snake.mass()).fold(f64::INFINITY, f64::min);
         let frequency = |stiffness: f64| (stiffness / least).sqrt();
         let pull = felt(snake, state, |_| true);
@@ -109,7 +92,6 @@ impl Certificate {
         let between = felt(snake, state, Acting::couples);
         let image_slope = pull.stiffness;
         let (contact, _) = snake.world().contact_stiffness();
-        let (modes, complete) = modes(snake);
         let felt = Felt { snake, pull };
         let coupled = Felt {
             snake,
@@ -128,7 +110,7 @@ impl Certificate {
         };
         Self {
             nodes: snake.len(),
-            elastic: modes.last().map_or(0.0, |mode| mode.frequency),
+            elastic: fastest(snake),
             image: if image_slope > 0.0 {
                 frequency(image_slope)
             } else {
@@ -141,8 +123,9 @@ impl Certificate {
                 0.0
             },
             steps: Scheme::ALL.iter().map(|&scheme| limit(scheme)).collect(),
-            modes,
-            complete,
+            anywhere: state.is_none(),
+            modes: Vec::new(),
+            complete: false,
         }
     }
 
@@ -151,12 +134,14 @@ impl Certificate {
     /// As [`Certificate::of`] without a state, for whoever needs no more: O(n), and O(pixels).
     #[must_use]
     pub fn limit(snake: &Snake, scheme: Scheme) -> Option<Limit> {
-        let Some(hardest) = snake.at_its_hardest() else {
+        let hardest = snake.at_its_hardest();
+        if hardest.is_empty() {
             return Self::limit_as_it_is(snake, scheme);
-        };
-        let limits = hardest.map(|snake| Self::limit_as_it_is(&snake, scheme));
-        let all = limits.into_iter().flatten();
-        all.min_by(|a, b| a.dt.total_cmp(&b.dt))
+        }
+        let limits = hardest
+            .iter()
+            .map(|snake| Self::limit_as_it_is(snake, scheme));
+        limits.flatten().min_by(|a, b| a.dt.total_cmp(&b.dt))
     }
 
     fn limit_as_it_is(snake: &Snake, scheme: Scheme) -> Option<Limit> {
@@ -219,7 +204,8 @@ impl fmt::Display for Certificate {
             writeln!(f, "  {name:<18} {value:.6}")?;
         }
         let (ringing, creeping) = self.ringing_and_creeping();
-        match (self.complete, self.modes.first(), self.modes.last()) {
+        let slowest = self.modes.iter().find(|mode| mode.frequency > 0.0);
+        match (self.complete, slowest, self.modes.last()) {
             (true, _, _) => writeln!(f, "modes: {ringing} ring, {creeping} creep")?,
             (false, Some(slow), Some(fast)) => writeln!(
                 f,
@@ -233,7 +219,12 @@ impl fmt::Display for Certificate {
             Some(time) => writeln!(f, "to a hundredth of any deformation in {time:.4} T")?,
             None => writeln!(f, "never comes to rest: a mode has no damping")?,
         }
-        writeln!(f, "largest step, T")?;
+        let where_to = if self.anywhere {
+            "wherever the curve may go"
+        } else {
+            "where the curve is"
+        };
+        writeln!(f, "largest step {where_to}, T")?;
         for (scheme, limit) in &self.steps {
             match limit {
                 Some(dt) if *dt > 0.0 => writeln!(f, "  {:<18} {dt:.6}", scheme.name())?,
@@ -243,128 +234,6 @@ impl fmt::Display for Certificate {
         }
         Ok(())
     }
-}
-
-/// Values at nodes that may move.
-fn free<'a>(snake: &'a Snake, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-    let pairs = values.iter().zip(snake.held());
-    pairs.filter(|(_, held)| !**held).map(|(&value, _)| value)
-}
-
-/// Modes from the slowest up, and whether these are all.
-pub(crate) fn modes(snake: &Snake) -> (Vec<ModeOfMotion>, bool) {
-    let (mass, damping) = (snake.mass(), snake.damping());
-    let least = free(snake, mass).fold(f64::INFINITY, f64::min);
-    if least == f64::INFINITY {
-        return (Vec::new(), true); // every node is held
-    }
-    if least <= 0.0 {
-        let frantic = ModeOfMotion {
-            frequency: f64::INFINITY,
-            fading: f64::INFINITY,
-        };
-        return (vec![frantic], false);
-    }
-    let mode = |stiffness: f64, fading: f64| ModeOfMotion {
-        frequency: stiffness.max(0.0).sqrt(),
-        fading,
-    };
-    // a stiffness below the rounding of the largest is none
-    let clean = |mut modes: Vec<ModeOfMotion>| {
-        let most = modes.iter().map(|mode| mode.frequency).fold(0.0, f64::max);
-        for mode in modes.iter_mut().filter(|mode| mode.frequency < 1e-6 * most) {
-            mode.frequency = 0.0;
-        }
-        modes
-    };
-    if let Some(values) = waves(snake) {
-        let fading = 0.5 * damping[0] / mass[0];
-        let modes = values.iter().map(|value| mode(value / mass[0], fading));
-        return (clean(modes.collect()), true);
-    }
-    let n = snake.len();
-    let held = snake.held();
-    if n <= MOST {
-        let matrix = snake.stiffness().dense();
-        let root: Vec<f64> = (0..n)
-            .map(|i| if held[i] { 1.0 } else { mass[i].sqrt() })
-            .collect();
-        let scaled = Dense::from_fn(n, |i, j| matrix[(i, j)] / (root[i] * root[j]));
-        if let Ok(eigen) = scaled.eigen() {
-            let pairs = eigen.values.iter().zip(&eigen.vectors);
-            // held nodes are modes of their own, of no stiffness: not motions
-            let moving = pairs.filter(|(_, u)| (0..n).any(|i| !held[i] && u[i].abs() > 1e-6));
-            let fading = |u: &[f64]| -> f64 {
-                (0..n)
-                    .map(|i| {
-                        if held[i] {
-                            0.0
-                        } else {
-                            u[i] * u[i] * damping[i] / mass[i]
-                        }
-                    })
-                    .sum()
-            };
-            let modes = moving.map(|(&value, u)| mode(value, 0.5 * fading(u)));
-            return (clean(modes.collect()), true);
-        }
-    }
-    outermost(snake)
-}
-
-/// Eigenvalues of a closed curve of equal nodes, in ascending order.
-fn waves(snake: &Snake) -> Option<Vec<f64>> {
-    let equal = |values: &[f64]| values.iter().all(|v| v.to_bits() == values[0].to_bits());
-    let operator = snake.stiffness();
-    let even = !snake.held().contains(&true)
-        && equal(snake.mass())
-        && equal(snake.damping())
-        && operator.columns().iter().all(|column| equal(column));
-    let circulant = even
-        .then(|| Circulant::new(operator.band()).ok())
-        .flatten()?;
-    let mut values = circulant.eigenvalues().to_vec();
-    if !operator.columns().is_empty() {
-        // what all nodes share only changes the mode in which all move alike
-        let mut product = vec![0.0; values.len()];
-        operator.multiply_scalars_into(&vec![1.0; values.len()], &mut product);
-        values[0] = product.iter().sum::<f64>() / values.len() as f64;
-    }
-    values.sort_by(f64::total_cmp);
-    Some(values)
-}
-
-/// The outermost two modes: stiffness by bisection, damping from its extremes. A body frame only lowers eigenvalues to 0 or leaves them between their neighbours, so the band's stand in.
-fn outermost(snake: &Snake) -> (Vec<ModeOfMotion>, bool) {
-    let weights: Vec<f64> = snake
-        .mass()
-        .iter()
-        .zip(snake.held())
-        .map(|(&mass, &held)| if held { 1.0 } else { mass })
-        .collect();
-    let band = snake.stiffness().band();
-    let ratios = snake.damping().iter().zip(snake.mass()).zip(snake.held());
-    let moving = ratios.filter(|(_, held)| !**held).map(|((c, m), _)| c / m);
-    let (low, high) = moving.fold((f64::INFINITY, 0.0_f64), |(low, high), ratio| {
-        (low.min(ratio), high.max(ratio))
-    });
-    let slow = banded::smallest_eigenvalue(band, &weights).max(0.0);
-    let fast = banded::largest_eigenvalue(band, &weights).max(0.0);
-    // slowest to rest: the least fading where it rings, the most where it creeps
-    let candidates = [low, high].map(|ratio| ModeOfMotion {
-        frequency: slow.sqrt(),
-        fading: 0.5 * ratio,
-    });
-    let first = if candidates[0].decay() <= candidates[1].decay() {
-        0
-    } else {
-        1
-    };
-    let last = ModeOfMotion {
-        frequency: fast.sqrt(),
-        fading: 0.5 * low,
-    };
-    (vec![candidates[first], last], false)
 }
 
 /// How steeply the forces push a node back at most, and how much they damp it.
@@ -417,6 +286,9 @@ impl System for Felt<'_> {
     fn contact_stiffness(&self) -> (f64, f64) {
         let (stiffness, damping) = self.snake.contact_stiffness();
         (stiffness + self.pull.stiffness, damping + self.pull.damping)
+    }
+    fn internal_damping(&self) -> f64 {
+        self.snake.internal_damping()
     }
 }
 

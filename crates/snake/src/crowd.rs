@@ -7,6 +7,7 @@
 
 mod account;
 mod contact;
+mod course;
 mod footing;
 mod glue;
 mod kick;
@@ -17,7 +18,7 @@ mod upkeep;
 pub use contact::Contact;
 pub use upkeep::{Event, EventKind, Plastic, Upkeep};
 
-use elastic::Topology;
+use elastic::{SpacingRule, Topology};
 use glam::DVec2;
 use integrator::{Fault, FaultKind, Limit, Scheme, SchemeError, Start, State, Summary, System};
 use outline::OutlineError;
@@ -42,11 +43,14 @@ pub struct Member {
     pace: Pace,
     /// Sub-steps that each part of a step is made in, where its nodes have come too close for one.
     cuts: u64,
-    ledger: Ledger,
-    /// Its spacing when it joined: what upkeep holds to.
+    /// None where no account is kept.
+    ledger: Option<Ledger>,
+    /// Mean distance of neighbors when it joined: what upkeep holds to.
     spacing: f64,
+    /// The least mass density of a node at any time. M.
+    lightest: f64,
     watch: Option<Watch>,
-    calm: bool,
+    verdict: Verdict,
 }
 
 impl Member {
@@ -60,6 +64,21 @@ impl Member {
     fn mass(&self, i: usize) -> f64 {
         self.snake.mass()[i] * self.snake.body().spacing
     }
+}
+
+/// The least mass of a node that may move, whatever schedules and maps say.
+fn lightest(snake: &Snake) -> f64 {
+    let hardest = snake.at_its_hardest();
+    let all = hardest.iter().chain([snake]).flat_map(|snake| snake.mass());
+    all.copied().fold(f64::INFINITY, f64::min)
+}
+
+/// The longest edge, the closing one counted.
+fn longest(x: &[DVec2], closed: bool) -> f64 {
+    let n = x.len();
+    let edges = if closed { n } else { n - 1 };
+    let lengths = (0..edges).map(|i| x[i].distance(x[(i + 1) % n]));
+    lengths.fold(0.0, f64::max)
 }
 
 /// A crowd that could not go on.
@@ -137,6 +156,10 @@ pub struct Crowd {
     begin: f64,
     t: f64,
     step: u64,
+    /// The deepest that a node has been in another snake so far.
+    deepest: f64,
+    /// Parts of a step at the least, by the scene as it began.
+    least_parts: u64,
     /// Parts of a step, each begun and ended by the contacts; and what asks for more than one.
     parts: u64,
     cut: Option<Limit>,
@@ -148,17 +171,41 @@ pub struct Crowd {
 }
 
 impl Crowd {
-    /// A crowd of snakes, each where it is, at the time of the first.
+    /// A crowd of snakes, each where it is, at the time of the first; it keeps an account of energies.
     ///
     /// # Errors
     ///
     /// A scheme that cannot move a snake; a contact law that will not do, or whose stiffness asks for a
-    /// smaller step.
+    /// smaller step; a start at which a force has no value, which the account asks for.
     pub fn new(
         snakes: Vec<(Snake, State)>,
         timing: Timing,
         contact: Option<Contact>,
         upkeep: Upkeep,
+    ) -> Result<Self, CrowdError> {
+        Self::begin(snakes, timing, contact, upkeep, true)
+    }
+
+    /// The same without an account of energies, which takes as long as the steps or longer: what would be booked is 0.
+    ///
+    /// # Errors
+    ///
+    /// As [`Crowd::new`] but for the account.
+    pub fn unbooked(
+        snakes: Vec<(Snake, State)>,
+        timing: Timing,
+        contact: Option<Contact>,
+        upkeep: Upkeep,
+    ) -> Result<Self, CrowdError> {
+        Self::begin(snakes, timing, contact, upkeep, false)
+    }
+
+    fn begin(
+        snakes: Vec<(Snake, State)>,
+        timing: Timing,
+        contact: Option<Contact>,
+        upkeep: Upkeep,
+        kept: bool,
     ) -> Result<Self, CrowdError> {
         let t = snakes.first().map_or(0.0, |(_, state)| state.t);
         let mut crowd = Self {
@@ -174,24 +221,28 @@ impl Crowd {
             begin: t,
             t,
             step: 0,
+            deepest: 0.0,
+            least_parts: 1,
             parts: 1,
             cut: None,
             made: None,
-            books: Books::default(),
+            books: Books::new(kept),
             orders: false,
         };
-        crowd.meetings.count(true);
+        crowd.meetings.count(kept);
         upkeep.validate()?;
-        let masses = snakes.iter().flat_map(|(snake, _)| snake.mass());
-        let least = masses.copied().fold(f64::INFINITY, f64::min);
         if let Some(contact) = &crowd.contact {
             contact.validate()?;
-            let edges = snakes.iter().flat_map(|(snake, state)| {
-                let spacing = snake.body().spacing;
-                let pairs = state.x.windows(2);
-                pairs.map(move |p| p[0].distance(p[1]) / spacing)
+            let each = snakes.iter().map(|(snake, state)| {
+                let closed = snake.body().topology.is_closed();
+                (
+                    lightest(snake),
+                    longest(&state.x, closed) / snake.body().spacing,
+                )
             });
-            let stretch = edges.fold(0.0, f64::max);
+            let (least, stretch) = each.fold((f64::INFINITY, 0.0_f64), |(m, l), (mass, long)| {
+                (m.min(mass), l.max(long))
+            });
             crowd.cut(contact.step_limit(least, stretch))?;
         }
         for (member, (snake, state)) in snakes.into_iter().enumerate() {
@@ -209,16 +260,23 @@ impl Crowd {
     /// One more snake, from now on.
     fn join(&mut self, mut snake: Snake, state: State) -> Result<(), CrowdError> {
         let member = self.next_id;
+        snake.settle(&state);
         let (pace, cuts) = self
             .pace(&mut snake, &state, self.timing.start)
             .map_err(|error| CrowdError::Scheme { member, error })?;
-        let ledger = Ledger::begin(&mut snake, &state)
-            .and_then(|ledger| ledger.under(self.timing.scheme, self.timing.start, &mut snake))
-            .map_err(|fault| CrowdError::Fault { member, fault })?;
-        let spacing = snake.body().spacing;
+        let ledger = if self.books.kept {
+            let begun = Ledger::begin(&mut snake, &state)
+                .and_then(|ledger| ledger.under(self.timing.scheme, self.timing.start, &mut snake));
+            Some(begun.map_err(|fault| CrowdError::Fault { member, fault })?)
+        } else {
+            None
+        };
+        let topology = snake.body().topology;
+        let spacing = elastic::spacing(&state.x, topology.is_closed(), SpacingRule::Closed);
         let orders = self.orders || snake.body().material.order() > 2;
         self.members.push(Member {
             id: member,
+            lightest: lightest(&snake),
             snake,
             state,
             pace,
@@ -226,7 +284,7 @@ impl Crowd {
             ledger,
             spacing,
             watch: None,
-            calm: false,
+            verdict: Verdict::Moving,
         });
         self.next_id += 1;
         if cuts > 1 {
@@ -283,6 +341,7 @@ impl Crowd {
                 member.catch_up()?;
             }
         }
+        self.divide()?;
         for part in 1..=self.parts {
             self.go(part)?;
         }
@@ -315,22 +374,23 @@ impl Crowd {
                 }
                 let somewhere = |x: &DVec2| x.is_finite() && x.abs().max_element() < FAR;
                 if let Some(node) = member.state.x.iter().position(|x| !somewhere(x)) {
+                    // the step is made, and led nowhere
+                    self.step += 1;
                     return Err(fault(Fault {
                         node,
                         at: member.state.x[node],
                         kind: FaultKind::NotFinite,
                     }));
                 }
-                if self.books.kept {
-                    member
-                        .ledger
-                        .book(&mut member.snake, &member.state)
-                        .map_err(fault)?;
+                if let Some(ledger) = &mut member.ledger {
+                    let booked = ledger.book(&mut member.snake, &member.state);
+                    booked.map_err(fault)?;
                 }
             }
         }
         self.t = self.members.first().map_or(self.t, |member| member.state.t);
         self.meet(Some(self.part()))?;
+        self.deepest = self.deepest.max(self.deepest());
         self.kick(half, Half::Second)
     }
 
@@ -343,14 +403,18 @@ impl Crowd {
         let balance = if rubs { f64::INFINITY } else { rest.balance };
         self.rest = Some(Rest { balance, ..rest });
         for member in &mut self.members {
-            member.watch = None;
+            let (snake, state) = (&mut member.snake, &member.state);
+            member.watch = self.rest.map(|rest| Watch::new(rest, snake, state));
+            member.verdict = Verdict::Moving;
         }
     }
 
-    /// Whether every snake is at rest, or never will be: goes to and fro, is lost or has collapsed.
+    /// Whether every snake is at rest. One that goes to and fro, is lost, has collapsed or turned over is not.
     #[must_use]
     pub fn is_at_rest(&self) -> bool {
-        self.members.iter().all(|member| member.calm)
+        self.members
+            .iter()
+            .all(|member| member.verdict == Verdict::Rest)
     }
 
     /// Look at every snake, if asked to.
@@ -369,7 +433,7 @@ impl Crowd {
             let push = pushes.get(k).map_or(&[][..], Vec::as_slice);
             // what it found holds until another window ends with something else
             if let Some(verdict) = watch.look(snake, state, push) {
-                member.calm = verdict != Verdict::Moving;
+                member.verdict = verdict;
             }
         }
     }
@@ -392,10 +456,9 @@ impl Crowd {
         let mut tally = self.meetings.kick(contact, &mut self.members, time, half);
         tally += self.footings.kick(contact, &mut self.members, time, half);
         self.books.kicked(tally);
-        let kept = self.books.kept;
         for (k, member) in self.members.iter_mut().enumerate() {
             if self.meetings.kicked(k) || self.footings.kicked(k) {
-                member.resume(kept)?;
+                member.resume()?;
             }
         }
         Ok(())
@@ -421,6 +484,12 @@ impl Crowd {
                 .sum()
         };
         self.members.iter().map(each).sum()
+    }
+
+    /// How deep a node has been in another snake at the end of a step, at most so far. L.
+    #[must_use]
+    pub const fn deepest_so_far(&self) -> f64 {
+        self.deepest
     }
 
     /// How deep the deepest node is in another snake, and 0 where none is. L.

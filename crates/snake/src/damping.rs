@@ -7,8 +7,8 @@ use elastic::Profile;
 use glam::{DMat2, DVec2};
 use integrator::{State, System};
 
-use crate::certificate::modes;
 use crate::error::finite_at_least;
+use crate::modes::resisting;
 use crate::renewal::Renewal;
 use crate::{Snake, SnakeError};
 
@@ -135,13 +135,7 @@ impl Snake {
 
     /// ω of the elastic mode number `mode` of those that resist.
     fn frequency(&self, mode: usize) -> Result<f64, SnakeError> {
-        let (modes, _) = modes(self);
-        let resisting = modes.iter().filter(|mode| mode.frequency > 0.0);
-        let found = resisting.clone().nth(mode).map(|mode| mode.frequency);
-        found.filter(|w| w.is_finite()).ok_or(SnakeError::NoMode {
-            mode,
-            modes: resisting.count(),
-        })
+        resisting(self, mode).map_err(|modes| SnakeError::NoMode { mode, modes })
     }
 
     /// γ of every node from the stiffness it feels: its elastic diagonal and the world's slope.

@@ -4,12 +4,12 @@ use elastic::{Material, Profile};
 use glam::DVec2;
 use integrator::{Scheme, SchemeError};
 
-use crate::Snake;
 use crate::inner::Inner;
 use crate::maps::Places;
 use crate::parameters::{operator, pushes, scaled};
 use crate::schedule;
 use crate::turn::TurningRest;
+use crate::{Certificate, Snake};
 
 /// Factors of ω₀, ω₁, ω₂, μ, γ and all weights above.
 #[derive(Debug, Clone, Default)]
@@ -179,43 +179,83 @@ impl Snake {
         }
     }
 
-    /// Have found the same as `other` in maps that are not looked at all the time.
+    /// Stand where `other` does in its schedules, and have found the same in maps that are not looked at all the time.
     pub(crate) fn keep_up_with(&mut self, other: &Self) {
+        if self.body.maps.is_empty() && !self.body.schedules.is_empty() {
+            self.take(other.factors.clone());
+        }
         if self.body.maps.every > 0.0 && other.body.maps.every > 0.0 {
             self.look = other.look;
             self.take(other.factors.clone());
         }
     }
 
-    /// Whether `scheme` can make steps of `dt` wherever the nodes may go, as [`Scheme::check`] says.
+    /// The times between which it is meant to run: step limits hold for what schedules say in between. Without a word,
+    /// for all that they say.
+    pub const fn run_between(&mut self, from: f64, to: f64) {
+        self.span = (from, to);
+    }
+
+    /// Whether `scheme` can make steps of `dt` at all times of the run ([`Snake::run_between`]) and for whatever factors maps have:
+    /// refused, unless `force`d, is what the elastic force, the damping and the walls alone make unstable. The limit that
+    /// is told then is [`Certificate::limit`], which counts the slopes of all forces as well.
     ///
     /// # Errors
     ///
     /// As [`Scheme::check`].
     pub fn check_step(&self, scheme: Scheme, dt: f64, force: bool) -> Result<(), SchemeError> {
-        match self.at_its_hardest() {
-            None => scheme.check(self, dt, force),
-            Some(hardest) => hardest
-                .iter()
-                .try_for_each(|snake| scheme.check(snake, dt, force)),
-        }
+        let hardest = self.at_its_hardest();
+        let mut all = hardest.iter().chain(hardest.is_empty().then_some(self));
+        let checked = all.try_for_each(|snake| scheme.check(snake, dt, force));
+        checked.map_err(|error| match error {
+            SchemeError::AboveLimit {
+                scheme: name,
+                dt,
+                limit,
+            } => {
+                let anywhere = Certificate::limit(self, scheme);
+                let limit = anywhere.map_or(limit, |anywhere| limit.min(anywhere.dt));
+                SchemeError::AboveLimit {
+                    scheme: name,
+                    dt,
+                    limit,
+                }
+            }
+            other => other,
+        })
     }
 
-    /// Where no node has been yet: the snake with the factors that ask for the shortest steps, once with the most
-    /// damping and once with the least. None where no parameter changes with place.
+    /// The snake with the parameters that ask for the shortest steps, of all that schedules say during the run
+    /// ([`Snake::run_between`]) and maps say anywhere: one for each combination that may be the hardest. Empty where no
+    /// parameter changes.
     #[must_use]
-    pub fn at_its_hardest(&self) -> Option<[Self; 2]> {
-        if self.body.maps.is_empty() {
-            return None;
+    pub fn at_its_hardest(&self) -> Vec<Self> {
+        let (maps, schedules) = (&self.body.maps, &self.body.schedules);
+        if maps.is_empty() && schedules.is_empty() {
+            return Vec::new();
         }
-        Some([true, false].map(|damped| {
+        let mut times = schedules.hardest(self.span);
+        if times.is_empty() {
+            times.push(self.factors.common);
+        }
+        let places: Vec<_> = if maps.is_empty() {
+            vec![None]
+        } else {
+            let hardest = |damped| Some(Box::new(maps.hardest(self.body.len(), damped)));
+            vec![hardest(true), hardest(false)]
+        };
+        let each = times.iter().flat_map(|&common| {
+            places.iter().map(move |places| Factors {
+                common,
+                places: places.clone(),
+            })
+        });
+        each.map(|factors| {
             let mut snake = self.clone();
-            snake.take(Factors {
-                common: self.factors.common,
-                places: Some(Box::new(self.body.maps.hardest(self.body.len(), damped))),
-            });
+            snake.take(factors);
             snake
-        }))
+        })
+        .collect()
     }
 
     /// How the rest shape is turned at `x` under these factors, if it turns.

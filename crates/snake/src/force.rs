@@ -59,6 +59,11 @@ pub trait Force: fmt::Debug + Send + Sync {
     /// A [`Fault`] at the first node at which the force has no value.
     fn add(&mut self, curve: &Curve<'_>, force: &mut [DVec2]) -> Result<(), Fault>;
 
+    /// Settle what depends on the curve that a run begins with, unless it is settled; by default nothing does.
+    fn settle(&mut self, curve: &Curve<'_>) {
+        let _ = curve;
+    }
+
     /// Add ∂fᵢ/∂xᵢ of every node to `slope`; false, with `slope` as it was, where it is not known.
     fn add_slope(&mut self, curve: &Curve<'_>, slope: &mut [DMat2]) -> bool {
         let _ = (curve, slope);

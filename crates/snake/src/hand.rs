@@ -126,7 +126,7 @@ impl Snake {
 
     /// Be the snake `old` was, on other nodes: hold those that are mostly of held ones.
     pub(crate) fn follow(&mut self, old: &Self, plan: &Plan) -> Result<(), SnakeError> {
-        self.changes = old.changes;
+        self.stay(old);
         let last = self.body.len() - 1;
         for (node, rail) in &old.rails {
             // it is an end that slides, and ends stay ends

@@ -16,7 +16,8 @@ pub(crate) struct Inner {
     damper: Material,
     /// Masses up to a factor that all share.
     mass: Profile,
-    bound: f64,
+    /// β. T.
+    time: f64,
     seen: Vec<DVec2>,
     force: Vec<DVec2>,
 }
@@ -33,25 +34,21 @@ impl Inner {
         }
         let n = body.len();
         let damper = material.damper(body.internal);
-        let rows = elastic::greatest_stiffness(body.topology, &damper, body.spacing, n)?;
-        let rate = |i: usize| rows[i] / mass.at(i);
-        let fastest = (0..n).map(rate).fold(0.0, f64::max);
-        let heaviest = (0..n).map(|i| mass.at(i)).fold(0.0, f64::max);
         Ok(Some(Self {
             damper,
             mass,
-            bound: fastest * heaviest,
+            time: body.internal,
             seen: vec![DVec2::ZERO; n],
             force: vec![DVec2::ZERO; n],
         }))
     }
 
-    /// As much damping as any node can feel. M T⁻¹.
-    pub(crate) const fn bound(&self) -> f64 {
-        self.bound
+    /// β: no motion is damped more than this times its stiffness. T.
+    pub(crate) const fn time(&self) -> f64 {
+        self.time
     }
 
-    fn fill(&mut self, body: &Body, x: &[DVec2], v: &[DVec2]) {
+    fn fill(&mut self, body: &Body, held: Option<&[bool]>, x: &[DVec2], v: &[DVec2]) {
         let damping = InternalDamping {
             topology: body.topology,
             damper: &self.damper,
@@ -59,7 +56,15 @@ impl Inner {
             mass: &self.mass,
             spacing: body.spacing,
         };
-        damping.force(x, v, &mut self.seen, &mut self.force);
+        let Some(held) = held else {
+            return damping.force(x, v, &mut self.seen, &mut self.force);
+        };
+        // what is held stands still, whatever velocity it had when it was taken hold of
+        let pairs = v.iter().zip(held);
+        let moving: Vec<DVec2> = pairs
+            .map(|(&v, &held)| if held { DVec2::ZERO } else { v })
+            .collect();
+        damping.force(x, &moving, &mut self.seen, &mut self.force);
     }
 }
 
@@ -67,7 +72,8 @@ impl Snake {
     /// Add the internal damping force.
     pub(crate) fn add_inner(&mut self, x: &[DVec2], v: &[DVec2], force: &mut [DVec2]) {
         if let Some(inner) = &mut self.inner {
-            inner.fill(&self.body, x, v);
+            let held = self.any_held.then_some(&self.held[..]);
+            inner.fill(&self.body, held, x, v);
             for (force, &own) in force.iter_mut().zip(&inner.force) {
                 *force += own;
             }
@@ -77,7 +83,8 @@ impl Snake {
     /// What internal damping takes, per unit of time and length of curve a node.
     pub(crate) fn inner_loss(&self, state: &State) -> f64 {
         self.inner.clone().map_or(0.0, |mut inner| {
-            inner.fill(&self.body, &state.x, &state.v);
+            let held = self.any_held.then_some(&self.held[..]);
+            inner.fill(&self.body, held, &state.x, &state.v);
             let pairs = inner.force.iter().zip(&state.v);
             -pairs.map(|(f, v)| f.dot(*v)).sum::<f64>()
         })

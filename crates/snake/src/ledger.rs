@@ -95,6 +95,9 @@ impl Ledger {
     /// As [`Ledger::begin`].
     pub fn under(mut self, scheme: Scheme, start: Start, snake: &mut Snake) -> Result<Self, Fault> {
         self.algebra = Algebra::of(scheme, start);
+        // a scheme that leaves out mass moves nothing that has kinetic energy
+        snake.inertia = scheme != Scheme::GradientFlow;
+        self.was.inertia = snake.inertia;
         self.begin_powers(snake)?;
         Ok(self)
     }
@@ -109,7 +112,12 @@ impl Ledger {
             return self.steps(snake, state);
         }
         if !snake.just_changed() {
-            self.change(snake, true)?;
+            // as it was when it was changed, not as it is at the end of the step
+            let now = snake.factors.clone();
+            snake.take(self.factors.clone());
+            let changed = self.change(snake, true);
+            snake.take(now);
+            changed?;
             return self.steps(snake, state);
         }
         // changed at `state`: the step was still made by the snake as it was
@@ -127,8 +135,15 @@ impl Ledger {
 
     /// All sub-steps that led to `state`.
     fn steps(&mut self, snake: &mut Snake, state: &State) -> Result<(), Fault> {
-        for (passed, touched) in snake.take_trail() {
-            self.step(snake, &passed, touched)?;
+        self.frame -= snake.take_frame_work();
+        for passed in snake.take_trail() {
+            let algebra = self.algebra.take_if(|_| passed.coarse);
+            self.step(snake, &passed.state, passed.touched)?;
+            if let Some(mut algebra) = algebra {
+                // many steps in one are none of its formulas'
+                algebra.go_on(snake, &passed.state, &self.bookings)?;
+                self.algebra = Some(algebra);
+            }
         }
         let touched = snake.take_touched();
         self.step(snake, state, touched)
@@ -227,18 +242,25 @@ impl Ledger {
 
     /// Nodes that a hand has stopped stand: what they had is its work.
     fn stop(&mut self, snake: &mut Snake) -> Result<(), Fault> {
-        let (h, mut stopped) = (snake.body().spacing, 0.0);
+        let (h, mut stopped, mut any) = (snake.body().spacing, 0.0, false);
+        // the masses of that moment, not those of the step's end
+        let mass = self.factors.times(3, &snake.body().mass);
         for (i, v) in self.before.v.iter_mut().enumerate() {
             if snake.held()[i] && *v != DVec2::ZERO {
-                stopped += 0.5 * h * snake.mass()[i] * v.length_squared();
+                stopped += 0.5 * h * mass.at(i) * v.length_squared();
                 *v = DVec2::ZERO;
+                any = true;
             }
         }
-        if stopped > 0.0 {
-            self.hand += stopped;
-            self.begin_powers(snake)?;
+        if !any {
+            return Ok(());
         }
-        Ok(())
+        self.hand += if snake.inertia { stopped } else { 0.0 };
+        let now = snake.factors.clone();
+        snake.take(self.factors.clone());
+        let begun = self.begin_powers(snake);
+        snake.take(now);
+        begun
     }
 
     /// What everything does per unit of time at the last state, asked anew.

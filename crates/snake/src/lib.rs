@@ -51,6 +51,7 @@ mod hand;
 mod inner;
 mod ledger;
 mod maps;
+mod modes;
 mod pace;
 mod parameters;
 mod renewal;
@@ -68,7 +69,7 @@ mod wall;
 mod world;
 
 pub use body::{Body, Center, Frame};
-pub use certificate::{Certificate, ModeOfMotion};
+pub use certificate::Certificate;
 pub use crowd::{Contact, Crowd, CrowdError, Event, EventKind, Member, Plastic, Timing, Upkeep};
 pub use damping::Damping;
 pub use energy::Energies;
@@ -79,6 +80,7 @@ pub use force::{
 };
 pub use ledger::Ledger;
 pub use maps::Maps;
+pub use modes::ModeOfMotion;
 pub use pace::Pace;
 pub use rest::Rest;
 pub use run::{Outcome, Until, run};

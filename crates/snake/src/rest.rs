@@ -14,7 +14,7 @@ use glam::DVec2;
 use integrator::{State, System};
 
 use crate::force::Acting;
-use crate::{ImageForce, Snake};
+use crate::{ImageForce, Outcome, Snake};
 
 /// What counts as rest. All three are ratios.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,6 +59,21 @@ pub(crate) enum Verdict {
     Cycle { reach: f64 },
     Lost,
     Collapsed,
+    TurnedOver,
+}
+
+impl Verdict {
+    /// The end of a run by it; None while something moves.
+    pub(crate) const fn outcome(self, step: u64) -> Option<Outcome> {
+        Some(match self {
+            Self::Moving => return None,
+            Self::Rest => Outcome::Settled { step },
+            Self::Cycle { reach } => Outcome::Cycles { step, reach },
+            Self::Lost => Outcome::Lost { step },
+            Self::Collapsed => Outcome::Collapsed { step },
+            Self::TurnedOver => Outcome::TurnedOver { step },
+        })
+    }
 }
 
 /// Follows a run and judges it.
@@ -66,6 +81,8 @@ pub(crate) enum Verdict {
 pub(crate) struct Watch {
     rest: Rest,
     size: f64,
+    /// Signed area at the start of a closed curve that enclosed something.
+    area: Option<f64>,
     begin: f64,
     /// Where the nodes were at the beginning of the present window, and when.
     mark: Vec<DVec2>,
@@ -94,6 +111,7 @@ impl Watch {
         let mut watch = Self {
             rest,
             size: size(&state.x),
+            area: enclosed(snake, &state.x),
             begin: state.t,
             mark: state.x.clone(),
             since: state.t,
@@ -167,13 +185,13 @@ impl Watch {
         let speed = self.speed(state);
         let most = self.rest.travel * self.size;
         let slow = self.far <= most && speed * window <= most;
-        let calm = kinetic(snake, state) <= CALM * self.liveliest;
+        let calm = self.left(snake, state, most) <= CALM * self.liveliest;
         if slow
             && calm
             && net <= self.rest.balance * self.strongest
             && !is_scheduled(snake, state.t)
         {
-            return Verdict::Rest;
+            return self.turned(snake, state).unwrap_or(Verdict::Rest);
         }
         // to and fro: it was far and came back, window after window, and always as far
         if self.near < 0.25 * self.far && self.far > most {
@@ -195,6 +213,17 @@ impl Watch {
         }
     }
 
+    /// What a closed curve has become that no longer encloses what it did: on the way there it may come back, at rest it
+    /// has not.
+    pub(crate) fn turned(&self, snake: &Snake, state: &State) -> Option<Verdict> {
+        let area = self.area?;
+        match enclosed(snake, &state.x) {
+            None => Some(Verdict::Collapsed),
+            Some(now) if (now < 0.0) != (area < 0.0) => Some(Verdict::TurnedOver),
+            Some(_) => None,
+        }
+    }
+
     /// The largest speed of a node over the last stretch of the window.
     fn speed(&self, state: &State) -> f64 {
         match &self.late {
@@ -204,6 +233,27 @@ impl Watch {
             }
             _ => state.v.iter().map(|v| v.length()).fold(0.0, f64::max),
         }
+    }
+
+    /// Kinetic energy that is left, twice. A node as near to a wall as that, which bounces at every step or two by what gravity
+    /// gives it in one, counts with its mean velocity.
+    fn left(&self, snake: &Snake, state: &State, near: f64) -> f64 {
+        let Some((from, t)) = self.late.as_ref().filter(|(_, t)| state.t > *t) else {
+            return kinetic(snake, state);
+        };
+        let walls = &snake.world().walls;
+        let each = state.v.iter().zip(snake.mass()).enumerate();
+        each.map(|(i, (v, m))| {
+            let x = state.x[i];
+            let bounces = walls.iter().any(|wall| wall.distance(x) <= near);
+            let v = if bounces {
+                (x - from[i]) / (state.t - t)
+            } else {
+                *v
+            };
+            m * v.length_squared()
+        })
+        .sum()
     }
 
     /// The largest net force on a node; the strongest single forces are remembered.
@@ -229,7 +279,10 @@ impl Watch {
             felt[i] += push.length();
         }
         self.strongest = felt.iter().copied().fold(self.strongest, f64::max);
-        snake.largest_push(&still, &self.net)
+        // a way that counts as none
+        let near = self.rest.travel * self.size;
+        let dt = (state.t - self.since) / self.looks.max(1) as f64;
+        snake.largest_push(&still, &self.net, (near, dt))
     }
 }
 
@@ -245,6 +298,17 @@ fn size(x: &[DVec2]) -> f64 {
         .iter()
         .fold((first, first), |(low, high), p| (low.min(*p), high.max(*p)));
     0.5 * (high - low).length()
+}
+
+/// A closed curve of less area than this share of its size squared lies flat.
+const FLAT: f64 = 1e-3;
+
+/// The signed area of a closed curve, where it encloses something.
+fn enclosed(snake: &Snake, x: &[DVec2]) -> Option<f64> {
+    let area = elastic::signed_area(x);
+    let size = size(x);
+    let counts = snake.body().topology.is_closed() && area.abs() > FLAT * size * size;
+    counts.then_some(area)
 }
 
 /// Whether a schedule or a hand has yet to change something: a snake at rest before that waits.

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use glam::DVec2;
-use integrator::{FaultKind, State, Stepper};
+use integrator::{Fault, FaultKind, State, Stepper};
 
 use crate::Snake;
 use crate::rest::{Rest, Verdict, Watch};
@@ -70,10 +70,23 @@ pub enum Outcome {
         /// Seen at this step.
         step: u64,
     },
-    /// It has shrunk to a hundredth of its size at the start, or less.
+    /// It has shrunk to a hundredth of its size at the start, or less; or a closed curve that enclosed something lies flat.
     Collapsed {
         /// Seen at this step.
         step: u64,
+    },
+    /// A closed curve is the other way round than it was at the start: it has passed through itself.
+    TurnedOver {
+        /// Seen at this step.
+        step: u64,
+    },
+    /// Curves that push each other lie in each other, or have been: what came too fast for the contacts to stop it has passed
+    /// into another curve, or through it.
+    Overlaps {
+        /// Steps completed.
+        step: u64,
+        /// How deep a node is or was in another curve at most, as far as it was followed. L.
+        depth: f64,
     },
     /// The observer said so.
     Stopped {
@@ -108,9 +121,20 @@ impl Outcome {
             | Self::Cycles { step, .. }
             | Self::Lost { step }
             | Self::Collapsed { step }
+            | Self::TurnedOver { step }
+            | Self::Overlaps { step, .. }
             | Self::Stopped { step }
             | Self::Diverged { step, .. }
             | Self::LeftField { step, .. } => step,
+        }
+    }
+
+    /// What a force or a number that fails makes of a run.
+    pub(crate) const fn of_fault(fault: Fault, step: u64) -> Self {
+        let Fault { node, at, kind } = fault;
+        match kind {
+            FaultKind::OutsideField => Self::LeftField { step, node, at },
+            _ => Self::Diverged { step, node },
         }
     }
 
@@ -123,6 +147,8 @@ impl Outcome {
             Self::Cycles { .. } => "cycles",
             Self::Lost { .. } => "lost",
             Self::Collapsed { .. } => "collapsed",
+            Self::TurnedOver { .. } => "turned-over",
+            Self::Overlaps { .. } => "overlaps",
             Self::Stopped { .. } => "stopped",
             Self::Diverged { .. } => "diverged",
             Self::LeftField { .. } => "left-field",
@@ -155,8 +181,19 @@ impl std::fmt::Display for Outcome {
                 )
             }
             Self::Collapsed { step } => {
-                write!(f, "collapsed to a hundredth of its size after {step} steps")
+                write!(
+                    f,
+                    "collapsed: hardly any size or area is left after {step} steps"
+                )
             }
+            Self::TurnedOver { step } => write!(
+                f,
+                "turned over: the closed curve has passed through itself and runs the other way round, seen after {step} steps"
+            ),
+            Self::Overlaps { step, depth } => write!(
+                f,
+                "curves that push each other are or were in each other by {depth:.3} pixels, seen after {step} steps"
+            ),
             Self::Stopped { step } => write!(f, "stopped after {step} steps"),
             Self::Diverged { step, node } => {
                 write!(f, "blew up after {step} steps, first at node {node}")
@@ -225,20 +262,13 @@ pub fn run(
     until: &Until,
     observer: &mut dyn FnMut(&mut Snake, &State) -> ControlFlow<()>,
 ) -> Outcome {
+    snake.settle(state);
     let begin = state.step;
     let mut watch = until.rest.map(|rest| Watch::new(rest, snake, state));
     let over = |state: &State| until.time.is_some_and(|end| state.t >= end);
     while state.step - begin < until.steps && !over(state) {
         if let Err(fault) = stepper.step(snake, state) {
-            let (step, node) = (state.step, fault.node);
-            return match fault.kind {
-                FaultKind::OutsideField => Outcome::LeftField {
-                    step,
-                    node,
-                    at: fault.at,
-                },
-                _ => Outcome::Diverged { step, node },
-            };
+            return Outcome::of_fault(fault, state.step);
         }
         let somewhere = |x: &DVec2| x.is_finite() && x.abs().max_element() < FAR;
         if let Some(node) = state.x.iter().position(|x| !somewhere(x)) {
@@ -261,11 +291,11 @@ pub fn run(
             .and_then(|watch| watch.look(snake, state, &[]))
         {
             None | Some(Verdict::Moving) => {}
-            Some(Verdict::Rest) => return Outcome::Settled { step },
-            Some(Verdict::Cycle { reach }) => return Outcome::Cycles { step, reach },
-            Some(Verdict::Lost) => return Outcome::Lost { step },
-            Some(Verdict::Collapsed) => return Outcome::Collapsed { step },
+            Some(verdict) => return verdict.outcome(step).unwrap_or(Outcome::Settled { step }),
         }
     }
-    Outcome::Finished { step: state.step }
+    let step = state.step;
+    let turned = watch.and_then(|watch| watch.turned(snake, state));
+    let turned = turned.and_then(|verdict| verdict.outcome(step));
+    turned.unwrap_or(Outcome::Finished { step })
 }

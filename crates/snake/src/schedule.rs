@@ -92,6 +92,9 @@ pub struct Schedules {
     pub higher: Option<Schedule>,
 }
 
+/// Times at which step limits are asked for, one by one.
+const MOST_POINTS: usize = 32;
+
 /// A factor for each of them, in the order tether, tension, rigidity, mass, damping, higher.
 pub(crate) type Factors = [f64; 6];
 
@@ -108,11 +111,41 @@ impl Schedules {
         self.all().map(|schedule| schedule.map_or(1.0, |s| s.at(t)))
     }
 
-    /// The largest factors, in the same order.
+    /// The largest factors at any time, in the same order.
     #[must_use]
     pub fn largest(&self) -> [f64; 6] {
         self.all()
             .map(|schedule| schedule.map_or(1.0, Schedule::largest))
+    }
+
+    /// Factors that between them ask for the shortest steps that are needed from the time `from` to the time `to`.
+    ///
+    /// Between two points all factors are straight lines, and "a step is stable" is a matrix that is linear in them and
+    /// positive definite. So the points, and both ends, stand for all times. Beyond [`MOST_POINTS`] of them it is
+    /// the largest stiffness with the least mass, once with the largest damping and once with the least.
+    pub(crate) fn hardest(&self, span: (f64, f64)) -> Vec<Factors> {
+        let (from, to) = if span.0 <= span.1 {
+            span
+        } else {
+            (f64::NEG_INFINITY, f64::INFINITY)
+        };
+        let points = |schedule: &Schedule| -> Vec<f64> {
+            let times = schedule.points.iter().map(|&(time, _)| time);
+            times.collect()
+        };
+        let mut times: Vec<f64> = self.all().into_iter().flatten().flat_map(points).collect();
+        times.iter_mut().for_each(|t| *t = t.clamp(from, to));
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        let mut each: Vec<Factors> = times.iter().map(|&t| self.at(t)).collect();
+        each.dedup();
+        if each.len() <= MOST_POINTS {
+            return each;
+        }
+        let most = |k: usize| each.iter().map(|f| f[k]).fold(0.0, f64::max);
+        let least = |k: usize| each.iter().map(|f| f[k]).fold(f64::INFINITY, f64::min);
+        let rest = |damping| [most(0), most(1), most(2), least(3), damping, most(5)];
+        vec![rest(most(4)), rest(least(4))]
     }
 
     /// When the last of the factors has changed for the last time; minus infinity if none does.

@@ -53,6 +53,12 @@ pub struct Snake {
     pub(crate) asked_before: u64,
     /// Until when someone means to change something.
     pub(crate) expected: f64,
+    /// Whether what moves it counts its mass: gradient flow does not.
+    pub(crate) inertia: bool,
+    /// Steps whose rounds did not come to agree.
+    pub(crate) unsettled: u64,
+    /// The times between which it is meant to run.
+    pub(crate) span: (f64, f64),
 }
 
 impl Snake {
@@ -94,6 +100,9 @@ impl Snake {
             asked: 0,
             asked_before: 0,
             expected: f64::NEG_INFINITY,
+            inertia: true,
+            unsettled: 0,
+            span: (f64::NEG_INFINITY, f64::INFINITY),
             body,
             world,
             weights,
@@ -111,6 +120,13 @@ impl Snake {
     #[must_use]
     pub const fn body(&self) -> &Body {
         &self.body
+    }
+
+    /// How many implicit steps or sub-steps so far have been made by rounds that did not come to agree
+    /// ([`System::gave_up`]): each is of a lower order than its scheme.
+    #[must_use]
+    pub const fn unsettled(&self) -> u64 {
+        self.unsettled
     }
 
     /// Where it lives.
@@ -218,6 +234,16 @@ impl Snake {
             .map_or(Ok(()), |acting| acting.add(&curve, force))
     }
 
+    /// Settle what depends on the curve that a run begins with: which way is out for a pressure, and the sign of an automatic
+    /// one. What is settled stays. [`run`](crate::run) and crowds ask for it; whoever steps a snake by hand
+    /// may, and else the first force that acts does.
+    pub fn settle(&mut self, state: &State) {
+        if state.len() == self.len() {
+            let (forces, curve) = self.forces(state.t, &state.x, &state.v);
+            forces.iter_mut().for_each(|acting| acting.settle(&curve));
+        }
+    }
+
     /// Put another body in place of this one; its schemes are told at their next step.
     ///
     /// # Errors
@@ -232,17 +258,25 @@ impl Snake {
             });
         }
         let mut new = Self::new(body, self.world.clone())?;
-        new.account = self.account.take();
-        (new.changes, new.asked) = (self.changes, self.asked);
         new.grasped.clone_from(&self.grasped);
+        new.hold_again()?;
+        // nothing is refused from here on
         new.rails.clone_from(&self.rails);
+        new.stay(self);
+        new.account = self.account.take();
         if let Some((t, x)) = &self.stood {
             new.stand(*t, x);
         }
-        new.hold_again()?;
         new.note();
         *self = new;
         Ok(())
+    }
+
+    /// Keep what belongs to the run and not to the body: what `old` was told of it.
+    pub(crate) const fn stay(&mut self, old: &Self) {
+        (self.changes, self.asked) = (old.changes, old.asked);
+        (self.renewal, self.expected, self.span) = (old.renewal, old.expected, old.span);
+        (self.inertia, self.unsettled) = (old.inertia, old.unsettled);
     }
 
     /// Put another rest shape in place of this one: a body that gives way, or grows.
@@ -278,7 +312,10 @@ impl Snake {
     }
 
     /// Largest of the net forces `net` at `state` once walls have answered, held nodes left out.
-    pub(crate) fn largest_push(&self, state: &State, net: &[DVec2]) -> f64 {
+    ///
+    /// A node that bounces hovers above its wall by what its force moves it in a step or two of that length; or it is as near
+    /// as counts for nothing.
+    pub(crate) fn largest_push(&self, state: &State, net: &[DVec2], (near, dt): (f64, f64)) -> f64 {
         let mut largest = 0.0_f64;
         for (i, force) in net.iter().enumerate().filter(|(i, _)| !self.held[*i]) {
             let sprung: DVec2 = self
@@ -287,17 +324,23 @@ impl Snake {
                 .iter()
                 .map(|wall| wall.force(state.x[i], DVec2::ZERO))
                 .sum();
-            let pushed = self.pushed(state.x[i], *force + sprung);
+            let force = *force + sprung;
+            let fall = if self.inertia && self.mass[i] > 0.0 {
+                2.0 * dt * dt * force.length() / self.mass[i]
+            } else {
+                0.0
+            };
+            let pushed = self.pushed(state.x[i], force, near.max(fall));
             largest = largest.max(self.along_rail(i, state.x[i], pushed).length());
         }
         largest
     }
 
-    /// What is left of a force once the walls the node touches have answered it.
-    fn pushed(&self, x: DVec2, mut force: DVec2) -> DVec2 {
+    /// What is left of a force once the walls that are so near have answered it.
+    fn pushed(&self, x: DVec2, mut force: DVec2, near: f64) -> DVec2 {
         for wall in &self.world.walls {
             let into = force.dot(wall.normal());
-            if wall.distance(x) <= 1e-9 && into < 0.0 {
+            if wall.distance(x) <= near && into < 0.0 {
                 force -= wall.normal() * into;
                 if let WallLaw::Impact { friction, .. } = wall.law() {
                     // what slides by less than friction holds does not slide
@@ -439,12 +482,23 @@ impl System for Snake {
         self.note_passed(state);
     }
 
+    fn gave_up(&mut self) {
+        self.unsettled += 1;
+    }
+
+    fn frame_work(&mut self, work: f64) {
+        self.note_frame_work(work);
+    }
+
     fn contact_stiffness(&self) -> (f64, f64) {
         let (stiffness, damping) = self.world.contact_stiffness();
-        let inner = self.inner.as_ref().map_or(0.0, Inner::bound);
         let forces = self.world.forces.iter();
         let elastic: f64 = forces.map(|acting| acting.force().stiffness()).sum();
-        (stiffness + elastic, damping + inner)
+        (stiffness + elastic, damping)
+    }
+
+    fn internal_damping(&self) -> f64 {
+        self.inner.as_ref().map_or(0.0, Inner::time)
     }
 
     fn external_slope(&mut self, t: f64, x: &[DVec2], slope: &mut [DMat2]) -> bool {

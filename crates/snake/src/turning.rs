@@ -157,6 +157,58 @@ impl Turning {
         self
     }
 
+    /// Whether an inertial force is left out.
+    pub(crate) fn lacks_any(&self) -> bool {
+        self.terms.contains(&false)
+    }
+
+    /// What the absence of inertial forces does to the nodes' energy in space at a state, per unit of time.
+    ///
+    /// A force that is left out of the equation of the frame acts in space, with its sign turned: without the Coriolis force
+    /// it is `2 μ ω × ė`. Without the transverse force the frame no longer points where the shape fits best, and what the elastic force
+    /// of the frame does beyond that of the best fit, whose energy is told, counts as well.
+    ///
+    /// # Errors
+    ///
+    /// The fault of a force that has no value at a node.
+    pub(crate) fn power_of_absence(&mut self, state: &State) -> Result<f64, Fault> {
+        let (n, x, v) = (self.snake.len(), &state.x, &state.v);
+        let mut force = vec![DVec2::ZERO; n + 2];
+        self.external(state.t, x, v, &mut force)?;
+        let (omega, gain) = (v[n + 1].x, force[n + 1].x);
+        let turn = DVec2::from_angle(x[n + 1].x);
+        let drift = DVec2::new(turn.x, -turn.y).rotate(v[n]);
+        let [centrifugal, coriolis, transverse] =
+            self.terms.map(|there| if there { 0.0 } else { 1.0 });
+        let mut power = 0.0;
+        for i in 0..n {
+            let (q, u) = (x[i], v[i]);
+            let absent = 2.0 * coriolis * omega * u.perp() - centrifugal * omega * omega * q
+                + transverse * gain * q.perp();
+            power += self.mass[i] * absent.dot(drift + omega * q.perp() + u);
+        }
+        let space = self.leave(state);
+        let own = self.strain(turn, &space.x);
+        let fit = self.strain(rotation(&self.pull, &space.x), &space.x);
+        for ((own, fit), v) in own.iter().zip(&fit).zip(&space.v) {
+            power += (*own - *fit).dot(*v);
+        }
+        Ok(self.snake.body().spacing * power)
+    }
+
+    /// The elastic force in space of the rest shape turned by that much, its sum taken out.
+    fn strain(&self, turn: DVec2, x: &[DVec2]) -> Vec<DVec2> {
+        let (body, weights) = (self.snake.body(), &self.snake.weights);
+        let (center, back) = (self.snake.center(x), DVec2::new(turn.x, -turn.y));
+        let off = |(&x, &r): (&DVec2, &DVec2)| back.rotate(x - center) - r;
+        let e: Vec<DVec2> = x.iter().zip(&body.rest).map(off).collect();
+        let mut force = vec![DVec2::ZERO; e.len()];
+        elastic::elastic_force(&e, body.topology, &body.material, body.spacing, &mut force);
+        let sum: DVec2 = force.iter().sum();
+        let pairs = force.iter().zip(weights);
+        pairs.map(|(&f, &w)| turn.rotate(f - sum * w)).collect()
+    }
+
     /// The snake, whose frame does not turn.
     #[must_use]
     pub const fn snake(&self) -> &Snake {
@@ -370,5 +422,9 @@ impl System for Turning {
 
     fn contact_stiffness(&self) -> (f64, f64) {
         self.snake.contact_stiffness()
+    }
+
+    fn internal_damping(&self) -> f64 {
+        self.snake.internal_damping()
     }
 }

@@ -47,6 +47,22 @@ impl TurningStepper {
         })
     }
 
+    /// Work over the last step of the inertial forces that are left out, by Simpson's rule on the cubic through both ends.
+    fn absent(&mut self, before: &State) -> Result<f64, Fault> {
+        let (turning, after) = (&mut self.turning, &self.state);
+        let dt = after.t - before.t;
+        let mut middle = before.clone();
+        middle.t = before.t + 0.5 * dt;
+        for i in 0..middle.x.len() {
+            let way = after.x[i] - before.x[i];
+            let (from, to) = (before.v[i], after.v[i]);
+            middle.x[i] = before.x[i] + 0.5 * way + dt / 8.0 * (from - to);
+            middle.v[i] = 1.5 / dt * way - 0.25 * (from + to);
+        }
+        let ends = turning.power_of_absence(before)? + turning.power_of_absence(after)?;
+        Ok(dt / 6.0 * (ends + 4.0 * turning.power_of_absence(&middle)?))
+    }
+
     /// θ now, not reduced to one turn.
     #[must_use]
     pub fn angle(&self) -> f64 {
@@ -61,7 +77,8 @@ impl TurningStepper {
 }
 
 impl Stepper for TurningStepper {
-    fn step(&mut self, _: &mut dyn System, space: &mut State) -> Result<(), Fault> {
+    fn step(&mut self, system: &mut dyn System, space: &mut State) -> Result<(), Fault> {
+        let before = self.turning.lacks_any().then(|| self.state.clone());
         if let Err(mut fault) = self.inner.step(&mut self.turning, &mut self.state) {
             // the last two of this system are no nodes
             fault.node = fault.node.min(space.x.len().saturating_sub(1));
@@ -69,6 +86,9 @@ impl Stepper for TurningStepper {
             return Err(fault);
         }
         *space = self.turning.leave(&self.state);
+        if let Some(before) = before {
+            system.frame_work(self.absent(&before)?);
+        }
         Ok(())
     }
 

@@ -283,6 +283,57 @@ fn the_step_limit_counts_internal_damping() {
 }
 
 #[test]
+fn the_step_limit_under_internal_damping_is_that_of_the_fastest_wave() {
+    // one mode of stiffness λ: 4 − 2 dt β λ − dt² λ = 0, for any β; β K damps it by β λ
+    let n = 32;
+    let x = elastic::circle(DVec2::ZERO, 8.0, n);
+    let mut body = Body::of(&x, Topology::Closed, 1.3)
+        .unwrap()
+        .with_material(Material::uniform(0.0, 5.0, 7.0));
+    let h2 = body.spacing * body.spacing;
+    let fastest = (5.0 * 4.0 / h2 + 7.0 * 16.0 / (h2 * h2)) / 1.3;
+    for beta in [0.0, 0.01, 0.1, 1.0] {
+        body.internal = beta;
+        let snake = Snake::new(body.clone(), World::default()).unwrap();
+        let root = ((beta * fastest).powi(2) + 4.0 * fastest).sqrt();
+        let exact = (root - beta * fastest) / fastest;
+        for scheme in [Scheme::Report, Scheme::Leapfrog] {
+            let limit = scheme.step_limit(&snake).unwrap();
+            assert!(
+                (limit / exact - 1.0).abs() < 1e-9,
+                "{scheme} {beta}: {limit}, {exact}"
+            );
+            // and where runs begin to blow up
+            let grows = |dt: f64| {
+                let mut snake = snake.clone();
+                let mut state = State::at_rest(x.clone());
+                for (i, p) in state.x.iter_mut().enumerate() {
+                    *p *= if i % 2 == 0 { 1.01 } else { 0.99 };
+                }
+                let mut stepper = scheme
+                    .start(&mut snake, &state, dt, Start::SecondOrder)
+                    .unwrap();
+                (0..4000).any(|_| {
+                    stepper.step(&mut snake, &mut state).is_err()
+                        || state
+                            .x
+                            .iter()
+                            .any(|p| p.length().is_nan() || p.length() > 1e3)
+                })
+            };
+            assert!(!grows(0.99 * limit), "{scheme} {beta}");
+            assert!(grows(1.02 * limit), "{scheme} {beta}");
+        }
+        // Runge and Kutta's region ends at 2.785 on the damped side
+        if beta >= 1.0 {
+            let limit = Scheme::Rk4.step_limit(&snake).unwrap();
+            let rate = 0.5 * fastest * (beta + (beta * beta - 4.0 / fastest).sqrt());
+            assert!((limit * rate / 2.785_293_563 - 1.0).abs() < 1e-3, "{limit}");
+        }
+    }
+}
+
+#[test]
 fn rules_are_read_as_they_are_written_and_others_refused() {
     for rule in [
         Damping::Constant(0.5),

@@ -36,9 +36,13 @@ pub(super) fn hand(
                 };
                 let mut text = Box::new(force.clone());
                 text.common.name = Some(acting.name().to_owned());
-                let idle = acting.weighted(Profile::Uniform(0.0));
+                let idle = acting.clone().weighted(Profile::Uniform(0.0));
                 world.forces.push(idle.clone());
-                Held::Force { text, idle }
+                Held::Force {
+                    text,
+                    idle,
+                    full: Box::new(acting),
+                }
             }
             _ => {
                 let message = "one of the keys hold and force would do";

@@ -23,19 +23,16 @@ pub(super) struct Books {
     pub upkeep: f64,
 }
 
-impl Default for Books {
-    fn default() -> Self {
+impl Books {
+    pub(super) fn new(kept: bool) -> Self {
         Self {
-            kept: true,
+            kept,
             lost: 0.0,
             gone: Energies::default(),
             scheme: 0.0,
             upkeep: 0.0,
         }
     }
-}
-
-impl Books {
     /// What half a kick has done.
     pub(super) fn kicked(&mut self, tally: Tally) {
         if self.kept {
@@ -82,11 +79,15 @@ fn add_up(sum: &mut Energies, energies: &Energies) {
 }
 
 impl Crowd {
-    /// The same without an account of energies, which takes as long as the steps or longer: what is booked stays 0.
+    /// The same without an account of energies from now on ([`Crowd::unbooked`] never begins one).
     #[must_use]
     pub fn without_account(mut self) -> Self {
         self.books.kept = false;
         self.meetings.count(false);
+        for member in &mut self.members {
+            member.ledger = None;
+            member.snake.account = None;
+        }
         self
     }
 
@@ -121,31 +122,31 @@ impl Crowd {
 impl Member {
     /// Its energies, with what its own ledger has booked.
     pub fn energies(&mut self) -> Energies {
-        self.ledger.energies(&mut self.snake, &self.state)
+        match &self.ledger {
+            Some(ledger) => ledger.energies(&mut self.snake, &self.state),
+            None => self.snake.energies(&self.state),
+        }
     }
 
     /// Tell its scheme, and its ledger if it keeps one, that someone else has moved it.
-    pub(super) fn resume(&mut self, kept: bool) -> Result<(), CrowdError> {
+    pub(super) fn resume(&mut self) -> Result<(), CrowdError> {
         let stepper = self.pace.stepper();
         stepper.resume(&mut self.snake, &self.state);
-        if !kept {
+        let Some(ledger) = &mut self.ledger else {
             return Ok(());
-        }
-        self.ledger
-            .resume(&mut self.snake, &self.state)
-            .map_err(|fault| CrowdError::Fault {
-                member: self.id,
-                fault,
-            })
+        };
+        let member = self.id;
+        let resumed = ledger.resume(&mut self.snake, &self.state);
+        resumed.map_err(|fault| CrowdError::Fault { member, fault })
     }
 
     /// Book what has been changed by hand since the last step.
     pub(super) fn catch_up(&mut self) -> Result<(), CrowdError> {
-        self.ledger
-            .catch_up(&mut self.snake)
-            .map_err(|fault| CrowdError::Fault {
-                member: self.id,
-                fault,
-            })
+        let Some(ledger) = &mut self.ledger else {
+            return Ok(());
+        };
+        let member = self.id;
+        let caught_up = ledger.catch_up(&mut self.snake);
+        caught_up.map_err(|fault| CrowdError::Fault { member, fault })
     }
 }

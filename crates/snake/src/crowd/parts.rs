@@ -1,12 +1,17 @@
 //! Into how many parts a step is cut: by the contacts, and by nodes that have come closer to each other.
 
+use glam::DVec2;
 use integrator::{Limit, SchemeError, Start, State, Summary};
 
-use super::{Crowd, CrowdError, Timing};
+use super::course::around;
+use super::{Contact, Crowd, CrowdError, Timing, longest};
 use crate::{Pace, Snake};
 
 /// Share of the contacts' limit that chosen steps have: they err by the square of it.
 const RESOLVED: f64 = 0.25;
+
+/// Share of the gap and the stop that nodes may come closer by in a part of a step: so each is seen on its way in.
+const SEEN: f64 = 0.5;
 
 /// Share of its limit that a cut step has at most.
 const BELOW: f64 = 0.9;
@@ -15,6 +20,105 @@ const BELOW: f64 = 0.9;
 const MOST: f64 = 1000.0;
 
 impl Crowd {
+    /// Let the step have as many parts as the contacts ask for now: masses and lengths change with upkeep, and nodes that
+    /// come fast must be seen on the way.
+    pub(super) fn divide(&mut self) -> Result<(), CrowdError> {
+        let Some(contact) = self.contact else {
+            return Ok(());
+        };
+        let dt = self.timing.dt;
+        let mut wanted = self.least_parts as f64;
+        if self.timing.tolerance.is_none() && dt >= self.contact_limit(&contact) {
+            wanted = wanted.max((dt / (BELOW * self.contact_limit(&contact))).ceil());
+        }
+        let way = SEEN * (contact.gap + contact.stop);
+        wanted = wanted
+            .max((dt * self.approach(&contact) / way).ceil())
+            .min(MOST);
+        // not back and forth for every small change
+        if wanted <= self.parts as f64 && 3.0 * wanted > self.parts as f64 {
+            return Ok(());
+        }
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "from 1 to MOST, or what it was"
+        )]
+        let parts = (wanted as u64).max(self.least_parts);
+        if parts == self.parts {
+            return Ok(());
+        }
+        self.parts = parts;
+        for k in 0..self.members.len() {
+            self.remember(k);
+            let mut snake = self.members[k].snake.clone();
+            let pace = self.pace(&mut snake, &self.members[k].state, Start::SecondOrder);
+            let member = &mut self.members[k];
+            let id = member.id;
+            let (pace, cuts) = pace.map_err(|error| CrowdError::Scheme { member: id, error })?;
+            (member.pace, member.cuts) = (pace, cuts);
+            member.resume()?;
+        }
+        Ok(())
+    }
+
+    /// The largest step of the contacts for the masses and lengths there are, at any time.
+    pub(super) fn contact_limit(&self, contact: &Contact) -> f64 {
+        let least = self.members.iter().map(|member| member.lightest);
+        let edges = self.members.iter().map(|member| {
+            longest(&member.state.x, member.is_closed()) / member.snake.body().spacing
+        });
+        let stretch = if contact.adheres() {
+            edges.fold(0.0, f64::max)
+        } else {
+            1.0
+        };
+        contact.step_limit(least.fold(f64::INFINITY, f64::min), stretch)
+    }
+
+    /// How fast nodes of curves come towards each other that may meet within the next step. L T⁻¹.
+    fn approach(&self, contact: &Contact) -> f64 {
+        let reach = contact.gap + contact.stop;
+        let moving: Vec<_> = (self.members.iter())
+            .map(|m| (around(&m.state.x), around(&m.state.v)))
+            .collect();
+        let against = |a: (DVec2, DVec2), b: (DVec2, DVec2)| {
+            let apart = (a.1 - b.0).abs().max((b.1 - a.0).abs());
+            apart.length()
+        };
+        let mut fastest = 0.0_f64;
+        if contact.own {
+            let own = moving.iter().map(|(_, v)| against(*v, *v));
+            fastest = own.fold(0.0, f64::max);
+        }
+        let all = moving.iter().map(|(_, v)| *v);
+        let all = all.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let dt = self.timing.dt;
+        // nothing can come that far: mostly so
+        let most = all.map_or(0.0, |all| against(all, all));
+        if dt * most <= SEEN * reach {
+            return 0.0;
+        }
+        let mut order: Vec<usize> = (0..moving.len()).collect();
+        order.sort_by(|&a, &b| moving[a].0.0.x.total_cmp(&moving[b].0.0.x));
+        for (k, &a) in order.iter().enumerate() {
+            let (box_a, speed_a) = moving[a];
+            for &b in &order[k + 1..] {
+                let (box_b, speed_b) = moving[b];
+                if box_b.0.x > box_a.1.x + reach + dt * most {
+                    break;
+                }
+                let speed = against(speed_a, speed_b);
+                let near = DVec2::splat(reach + dt * speed);
+                let meet = (box_a.0 - near).cmple(box_b.1) & (box_b.0 - near).cmple(box_a.1);
+                if meet.all() {
+                    fastest = fastest.max(speed);
+                }
+            }
+        }
+        fastest
+    }
+
     /// Cut the step into parts below the limit of the contacts, or refuse it where it may not be cut.
     pub(super) fn cut(&mut self, limit: f64) -> Result<(), CrowdError> {
         let dt = self.timing.dt;
@@ -36,7 +140,7 @@ impl Crowd {
             reason = "between 1 and 1e9"
         )]
         let parts = parts as u64;
-        self.parts = parts;
+        (self.parts, self.least_parts) = (parts, parts);
         self.cut = Some(Limit {
             dt: most,
             of: "the contacts between snakes, with a margin to resolve them",
@@ -80,13 +184,16 @@ impl Crowd {
         let Timing {
             scheme, dt, force, ..
         } = self.timing;
-        let limit = scheme.step_limit(snake).filter(|limit| dt > *limit);
-        let Some(limit) = limit.filter(|_| !force) else {
+        let hardest = snake.at_its_hardest();
+        let all = hardest.iter().chain(hardest.is_empty().then_some(snake));
+        let limit = all.filter_map(|snake| scheme.step_limit(snake));
+        let limit = limit.min_by(f64::total_cmp);
+        let Some(limit) = limit.filter(|limit| dt > *limit && !force) else {
             return Ok(1);
         };
         let cuts = (dt / (BELOW * limit)).ceil();
         if cuts > MOST {
-            scheme.check(snake, dt, false)?;
+            snake.check_step(scheme, dt, false)?;
         }
         #[allow(
             clippy::cast_possible_truncation,

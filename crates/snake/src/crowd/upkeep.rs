@@ -7,8 +7,10 @@ use glam::DVec2;
 use integrator::{Start, State};
 use outline::{Between, Lengths, Plan, Removal, Totals};
 
-use super::{Crowd, CrowdError, Member};
+use super::course::around;
+use super::{Crowd, CrowdError, Member, lightest};
 use crate::error::finite_at_least;
+use crate::rest::Verdict;
 use crate::{Body, Snake, SnakeError};
 
 /// What is looked after, and how often.
@@ -152,7 +154,7 @@ impl Crowd {
             let time = self.timing.dt * upkeep.every as f64;
             for member in &mut self.members {
                 member.flow(&upkeep, time)?;
-                member.resume(kept)?;
+                member.resume()?;
             }
         }
         let mut changed = false;
@@ -283,9 +285,16 @@ impl Crowd {
     fn merge(&mut self, depth: f64) -> Result<bool, CrowdError> {
         let mut changed = false;
         let mut a = 0;
+        let mut boxes: Vec<_> = self.members.iter().map(|m| around(&m.state.x)).collect();
         while a < self.members.len() {
             let mut b = a + 1;
             while b < self.members.len() {
+                // curves whose boxes do not meet are not in each other
+                let ((low, high), (least, most)) = (boxes[a], boxes[b]);
+                if low.cmpgt(most).any() || least.cmpgt(high).any() {
+                    b += 1;
+                    continue;
+                }
                 let (one, two) = (&self.members[a], &self.members[b]);
                 let id = one.id;
                 let wrong = |error| CrowdError::Outline { member: id, error };
@@ -308,6 +317,8 @@ impl Crowd {
                 self.put(a, renewed)?;
                 self.log(id, EventKind::Merged { with });
                 self.retire(b);
+                boxes.remove(b);
+                boxes[a] = around(&self.members[a].state.x);
                 changed = true;
             }
             a += 1;
@@ -318,7 +329,6 @@ impl Crowd {
     /// Put a renewed curve in the place of member `k`.
     fn put(&mut self, k: usize, renewed: Renewed) -> Result<(), CrowdError> {
         self.remember(k);
-        let kept = self.books.kept;
         let member = &self.members[k];
         let mut world = member.snake.world().clone();
         for acting in &mut world.forces {
@@ -337,17 +347,20 @@ impl Crowd {
             self.log(id, EventKind::Cut { cuts });
         }
         let member = &mut self.members[k];
+        member.lightest = lightest(&snake);
         (member.snake, member.state) = (snake, renewed.state);
         (member.pace, member.cuts) = (pace, cuts);
-        (member.watch, member.calm) = (None, false);
-        member.resume(kept)
+        (member.watch, member.verdict) = (None, Verdict::Moving);
+        member.resume()
     }
 
     /// Take member `k` out; what its ledger has booked stays in the crowd's.
     fn retire(&mut self, k: usize) {
         self.remember(k);
         let member = self.members.remove(k);
-        self.books.retire(&member.ledger.booked());
+        if let Some(ledger) = &member.ledger {
+            self.books.retire(&ledger.booked());
+        }
     }
 }
 

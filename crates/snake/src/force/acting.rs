@@ -144,6 +144,11 @@ impl Acting {
         outcome
     }
 
+    /// As [`Force::settle`].
+    pub(crate) fn settle(&mut self, curve: &Curve<'_>) {
+        self.force.settle(curve);
+    }
+
     /// Add the weighted slopes; false where they are not known.
     pub(crate) fn add_slope(&mut self, curve: &Curve<'_>, slope: &mut [DMat2]) -> bool {
         if self.is_plain() {

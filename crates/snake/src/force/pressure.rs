@@ -2,7 +2,6 @@
 
 use std::any::Any;
 use std::f64::consts::PI;
-use std::sync::OnceLock;
 
 use glam::{DMat2, DVec2};
 use integrator::Fault;
@@ -27,8 +26,8 @@ const LIQUID: f64 = 1e-3;
 /// k is a force per length of the curve as it is now, M L T⁻²; the report's unit normal times that length is N to second order,
 /// and N makes the force the exact gradient of E. The sum over all nodes is 0: it moves nobody along.
 ///
-/// *Which way is out* is settled where the curve is first met, by the sign of its area (D78), and remembered:
-/// A is the area with that sign, and a curve turned inside out has less than none. A constant pressure below 0 ends at
+/// *Which way is out* is settled by the sign of the area (D78) of the curve that a run begins with ([`Force::settle`]), or else of the
+/// first that the force acts on, and remembered; asking for an energy or a slope settles nothing. A is the area with that sign, and a curve turned inside out has less than none. A constant pressure below 0 ends at
 /// A = 0, a gas has p = 1000 k below A₀/1000 and pushes the curve back from negative areas, and so does an area; none
 /// is ever NaN for nodes that are places. A factor over time (a balloon that fades) is the schedule of [`Acting`](crate::Acting).
 ///
@@ -40,7 +39,7 @@ pub struct Pressure {
     law: Law,
     k: f64,
     judge: Option<Box<dyn Force>>,
-    met: OnceLock<Met>,
+    met: Option<Met>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,7 +64,7 @@ impl Pressure {
             law,
             k,
             judge: None,
-            met: OnceLock::new(),
+            met: None,
         }
     }
 
@@ -109,7 +108,11 @@ impl Pressure {
     /// The pressure at an area, as [`Pressure::automatic`] left the sign. M L T⁻².
     #[must_use]
     pub fn at(&self, area: f64) -> f64 {
-        let k = self.k * self.met.get().map_or(1.0, |met| met.sign);
+        self.by_sign(area, self.met.map_or(1.0, |met| met.sign))
+    }
+
+    fn by_sign(&self, area: f64, sign: f64) -> f64 {
+        let k = self.k * sign;
         match self.law {
             Law::Constant if k < 0.0 && area <= 0.0 => 0.0,
             Law::Constant => k,
@@ -127,9 +130,9 @@ impl Pressure {
         }
     }
 
-    /// What is settled of this curve, now at the latest.
+    /// What is settled, or would be by this curve.
     fn meet(&self, curve: &Curve<'_>) -> Met {
-        *self.met.get_or_init(|| {
+        self.met.unwrap_or_else(|| {
             let turn = curve.turn();
             let mut pull = 0.0;
             if let Some(judge) = &self.judge {
@@ -146,10 +149,10 @@ impl Pressure {
         })
     }
 
-    /// The pressure inside a curve, and the sign of its area.
-    fn inside(&self, curve: &Curve<'_>) -> (f64, f64) {
-        let Met { turn, .. } = self.meet(curve);
-        (turn * elastic::signed_area(curve.x), turn)
+    /// The area inside a curve, and what is settled.
+    fn inside(&self, curve: &Curve<'_>) -> (f64, Met) {
+        let met = self.meet(curve);
+        (met.turn * elastic::signed_area(curve.x), met)
     }
 }
 
@@ -163,12 +166,17 @@ impl Force for Pressure {
     }
 
     fn add(&mut self, curve: &Curve<'_>, force: &mut [DVec2]) -> Result<(), Fault> {
-        let (area, turn) = self.inside(curve);
-        let density = turn * self.at(area) / curve.spacing;
+        self.settle(curve);
+        let (area, met) = self.inside(curve);
+        let density = met.turn * self.at(area) / curve.spacing;
         for (i, f) in force.iter_mut().enumerate() {
             *f += density * curve.normal(i);
         }
         Ok(())
+    }
+
+    fn settle(&mut self, curve: &Curve<'_>) {
+        self.met = Some(self.meet(curve));
     }
 
     /// `dp/dA N Nᵀ / h` of each node: a constant pressure does not change with a node of its own.
@@ -185,16 +193,12 @@ impl Force for Pressure {
     }
 
     fn energy(&self, curve: &Curve<'_>) -> Option<f64> {
-        let (area, _) = self.inside(curve);
+        let (area, met) = self.inside(curve);
         Some(match self.law {
-            Law::Constant => {
-                -self.at(1.0)
-                    * if self.at(1.0) < 0.0 {
-                        area.max(0.0)
-                    } else {
-                        area
-                    }
-            }
+            Law::Constant => match self.by_sign(1.0, met.sign) {
+                p if p < 0.0 => -p * area.max(0.0),
+                p => -p * area,
+            },
             Law::Gas { area: full } => {
                 let least = LIQUID * full;
                 let below = (area - least).min(0.0) / least;
@@ -212,9 +216,13 @@ impl Force for Pressure {
     fn pull(&self, spacing: f64, curve: Option<&Curve<'_>>) -> Pull {
         let (most, slope, squares) = match (curve, self.law) {
             (Some(curve), _) => {
-                let (area, _) = self.inside(curve);
+                let (area, met) = self.inside(curve);
                 let normals = (0..curve.x.len()).map(|i| curve.normal(i).length_squared());
-                (self.at(area), self.slope(area), normals.sum())
+                (
+                    self.by_sign(area, met.sign),
+                    self.slope(area),
+                    normals.sum(),
+                )
             }
             (None, Law::Constant) => (self.k, 0.0, 0.0),
             (None, Law::Gas { area } | Law::Area { area }) => {
