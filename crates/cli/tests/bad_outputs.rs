@@ -19,7 +19,7 @@ fn a_file_that_cannot_be_written_is_refused_before_the_run() {
     folder.write("s.toml", scene(&[]));
     std::fs::create_dir(folder.path("d")).unwrap();
     for bad in ["file/r.csv", "no/such/r.csv", "d", "d/.."] {
-        let says = [bad, "cannot be written", "would do"];
+        let says = [bad, "cannot be written", "is needed"];
         // a billion steps would be noticed
         let run = [
             "run",

@@ -122,7 +122,8 @@ impl Fit {
             return Err(SceneError::key("--strength", message));
         }
         let sight = Sight::of(&picture)?.for_fit(self.computing);
-        let notes = sight.note().into_iter().collect();
+        let mut notes = picture.notes().to_vec();
+        notes.extend(sight.note());
         let topology = if closed {
             Topology::Closed
         } else {
@@ -178,6 +179,7 @@ impl Fit {
                 recording: Recording::default(),
             },
             notes,
+            inputs: Vec::new(),
         })
     }
 

@@ -1,7 +1,7 @@
 //! A situation ready to run: a snake, its start, and the plan of the run.
 
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use field::ForceField;
@@ -147,6 +147,8 @@ pub struct Scene {
     pub plan: Plan,
     /// What people should know of it though nothing is refused.
     pub notes: Vec<String>,
+    /// The files that it was read from, as far as they are known: no result may take their place.
+    pub inputs: Vec<PathBuf>,
 }
 
 impl Scene {
@@ -170,8 +172,10 @@ impl Scene {
             .file_stem()
             .map_or_else(String::new, |s| s.to_string_lossy().into_owned());
         let folder = path.parent().unwrap_or_else(|| Path::new("."));
-        Self::parse(&name, &text, folder)
-            .map_err(|error| SceneError::file(&read::called(path), error))
+        let mut scene = Self::parse(&name, &text, folder)
+            .map_err(|error| SceneError::file(&read::called(path), error))?;
+        scene.inputs.push(path.to_owned());
+        Ok(scene)
     }
 
     /// A scene from text; files that it names are looked for in `folder`.
@@ -244,6 +248,7 @@ impl Scene {
         }
         if let Some(tolerance) = plan.tolerance {
             number::above_zero("run.tolerance", tolerance)?;
+            self.check_substeps()?;
             if self.company.is_some() && plan.each {
                 let message = "snakes that meet are written at times they share; a time between steps would do";
                 return Err(SceneError::key("run.output", message));

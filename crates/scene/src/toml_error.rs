@@ -1,7 +1,7 @@
 //! TOML's own messages, turned into one line that names the place and what would do.
 
 use crate::SceneError;
-use crate::error::{clip, nearest};
+use crate::error::{clip, meant};
 use crate::file::SceneText;
 
 /// Read the text of a scene.
@@ -44,14 +44,14 @@ fn helpful(message: &str) -> String {
             if known.is_empty() {
                 return clip(message);
             }
-            let nearest = nearest(word, known.iter().copied());
+            let meant = meant(word, known.iter().copied());
             let what = if message.starts_with("unknown field") {
                 "key"
             } else {
                 "word"
             };
             let (word, known) = (clip(word), known.join(", "));
-            format!("unknown {what} \"{word}\"; did you mean \"{nearest}\"? (known: {known})")
+            format!("unknown {what} \"{word}\"{meant} (known: {known})")
         }
         _ => message.lines().collect::<Vec<_>>().join(", "),
     }

@@ -9,20 +9,20 @@ mod reach;
 mod region;
 mod strength;
 
-use std::cell::OnceCell;
-use std::collections::BTreeSet;
+use std::cell::{Cell, OnceCell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use elastic::Profile;
 use field::{EdgeForce, FieldError, ForceField, Grid, MaskedImage, Region, Smoothing};
 use glam::DVec2;
-use snake::{Acting, Gravity, ImageForce, Pressure, RegionForce, Sampling, Turned, World};
+use snake::{Acting, Crowd, Energies, Gravity, ImageForce, Pressure, RegionForce, Sampling, Turned, World};
 
 use super::body::{profile, straight};
 use super::edge_field::{Computing, Wanted, edge_field};
 use super::{number, smoothing};
 use crate::file::{EdgeText, ForceText, KindText, PolarityText};
-use crate::limits::USUALLY_WHOLE;
+use crate::limits::{MOST_FIELDS, USUALLY_WHOLE};
 use crate::{Picture, SceneError};
 
 /// Force of strength 1: a gain of 6 on 120 levels, smoothed with σ² = 10, at its strongest, one σ from the
@@ -47,6 +47,19 @@ pub(crate) struct Sight<'a> {
     contrast: f64,
     computing: Computing,
     whole_up_to: u64,
+    /// The field of `[field]`, once it has been made.
+    usual: OnceCell<Arc<ForceField>>,
+    /// Fields and regions that have been made, by what they were asked for.
+    made: RefCell<Vec<(KindText, Seen)>>,
+    /// Pixels of all fields so far.
+    spent: Cell<u64>,
+}
+
+/// What a kind makes of a picture, whatever the curve.
+#[derive(Clone)]
+enum Seen {
+    Field(Arc<ForceField>),
+    Region(Arc<dyn Region>),
 }
 
 impl<'a> Sight<'a> {
@@ -57,6 +70,9 @@ impl<'a> Sight<'a> {
             contrast: picture.grey_contrast(),
             computing: Computing::Auto,
             whole_up_to: USUALLY_WHOLE,
+            usual: OnceCell::new(),
+            made: RefCell::default(),
+            spent: Cell::new(0),
         };
         if !picture.is_tame() {
             sight.grey("picture")?; // pixels that will not do are found first
@@ -69,6 +85,66 @@ impl<'a> Sight<'a> {
         self.computing = computing;
         self.whole_up_to = 0;
         self
+    }
+
+    /// The field of `[field]`, made at the first call.
+    pub(crate) fn usual(
+        &self,
+        make: impl FnOnce() -> Result<ForceField, SceneError>,
+    ) -> Result<Arc<ForceField>, SceneError> {
+        if let Some(field) = self.usual.get() {
+            return Ok(Arc::clone(field));
+        }
+        let field = Arc::new(make()?);
+        Ok(Arc::clone(self.usual.get_or_init(|| field)))
+    }
+
+    /// Count fields that are about to be made; more than there may be in all are refused.
+    pub(crate) fn spend(&self, key: &str, fields: usize) -> Result<(), SceneError> {
+        let (width, height) = self.picture.size();
+        let (pixels, before) = ((width * height) as u64, self.spent.get());
+        let all = before.saturating_add(pixels.saturating_mul(fields as u64));
+        if before > 0 && all > MOST_FIELDS {
+            let most = MOST_FIELDS / pixels.max(1);
+            let message = format!(
+                "makes more force fields than there is room for on {width}×{height} pixels: there must be at most {most}"
+            );
+            return Err(SceneError::key(key, message));
+        }
+        self.spent.set(all);
+        Ok(())
+    }
+
+    /// [`Sight::spend`] what a list of forces makes, before any of it is made.
+    fn foresee(&self, keyed: &[(String, ForceText)]) -> Result<(), SceneError> {
+        let mut new: Vec<&KindText> = Vec::new();
+        let made = self.made.borrow();
+        for (key, ForceText { kind, .. }) in keyed.iter().filter(|(_, text)| looks(&text.kind)) {
+            let kept = is_field(kind) || is_region(kind);
+            if kept && (new.contains(&kind) || made.iter().any(|(known, _)| known == kind)) {
+                continue;
+            }
+            self.spend(&format!("{key}: kind"), grids(kind))?;
+            new.push(kind);
+        }
+        Ok(())
+    }
+
+    /// What a kind makes of the picture, made once for each way of asking.
+    fn seen(
+        &self,
+        kind: &KindText,
+        make: impl FnOnce() -> Result<Option<Seen>, SceneError>,
+    ) -> Result<Option<Seen>, SceneError> {
+        let known = self.made.borrow();
+        if let Some((_, seen)) = known.iter().find(|(known, _)| known == kind) {
+            return Ok(Some(seen.clone()));
+        }
+        drop(known);
+        let seen = make()?;
+        let kept = seen.clone().map(|seen| (kind.clone(), seen));
+        self.made.borrow_mut().extend(kept);
+        Ok(seen)
     }
 
     /// Spread of the levels that count, for a gain: a constant exerts no force whatever its gain.
@@ -110,7 +186,7 @@ impl<'a> Sight<'a> {
         let picture = self.picture;
         if self.contrast > 0.0 {
             None
-        } else if picture.channels().iter().any(|c| picture.contrast(c) > 0.0) {
+        } else if picture.is_color() && !picture.is_constant() {
             Some(
                 "the picture has one grey everywhere: only forces in color see anything".to_owned(),
             )
@@ -248,10 +324,8 @@ impl<'a> Around<'a> {
             self.closed(kind.word())?;
         }
         Ok(match kind {
-            KindText::Edge(text) if !either(text) => Acting::new(self.seen()?.signed_edge(text)?),
-            KindText::Edge(text) => {
-                let field = Arc::new(self.seen()?.felt_edge(text)?);
-                Acting::new(ImageForce::new(field, Sampling::Bilinear))
+            KindText::Edge(text) if !either(text) => {
+                Acting::new(self.seen()?.signed_edge(text)?)
             }
             KindText::Pressure(text) => Acting::new(self.pressure(text)?),
             KindText::Gas(text) => {
@@ -270,16 +344,27 @@ impl<'a> Around<'a> {
                 Acting::new(Gravity(number::place(&key, text.acceleration)?))
             }
             _ => {
-                let sight = self.seen()?.sight;
-                if let Some(region) = sight.region(self.key, kind)? {
-                    return Ok(Acting::new(RegionForce::new(region)));
-                }
-                let made = sight.field(self.key, kind)?;
-                let Some(made) = made else {
-                    let message = format!("{} is no field", kind.word());
-                    return Err(SceneError::key(&format!("{}: kind", self.key), message));
+                let at = self.seen()?;
+                let made = || {
+                    if let KindText::Edge(text) = kind {
+                        return Ok(Some(Seen::Field(Arc::new(at.felt_edge(text)?))));
+                    }
+                    if let Some(region) = at.sight.region(self.key, kind)? {
+                        return Ok(Some(Seen::Region(region)));
+                    }
+                    let made = at.sight.field(self.key, kind)?;
+                    Ok(made.map(|made| Seen::Field(Arc::new(made.field))))
                 };
-                Acting::new(ImageForce::new(Arc::new(made.field), Sampling::Bilinear))
+                match at.sight.seen(kind, made)? {
+                    Some(Seen::Region(region)) => Acting::new(RegionForce::new(region)),
+                    Some(Seen::Field(field)) => {
+                        Acting::new(ImageForce::new(field, Sampling::Bilinear))
+                    }
+                    None => {
+                        let message = format!("{} is no field", kind.word());
+                        return Err(SceneError::key(&format!("{}: kind", self.key), message));
+                    }
+                }
             }
         })
     }
@@ -302,6 +387,17 @@ const fn asks_inside(kind: &KindText) -> bool {
             | KindText::Gas(_)
             | KindText::Area(_)
     )
+}
+
+/// How many fields, of two numbers a pixel, a kind keeps.
+fn grids(kind: &KindText) -> usize {
+    match kind {
+        KindText::CoarseToFine(scales) => scales.sigmas.as_ref().map_or(4, Vec::len),
+        // a number for each stripe and channel
+        KindText::Texture(_) => 8,
+        KindText::Regions(_) | KindText::LocalRegions(_) | KindText::Likelihood(_) => 2,
+        _ => 1,
+    }
 }
 
 /// The force of a `[[force]]`, or of a `--force`, with its weight and schedule; one for each scale of a schedule of scales.
@@ -441,7 +537,10 @@ pub(crate) fn add(
     nodes: &[DVec2],
     closed: bool,
 ) -> Result<World, SceneError> {
-    let mut taken: BTreeSet<String> = TAKEN.into_iter().map(str::to_owned).collect();
+    if let Some(sight) = sight {
+        sight.foresee(keyed)?;
+    }
+    let mut taken = columns();
     taken.extend(world.names().map(str::to_owned));
     for (key, text) in keyed {
         if let Some(name) = &text.common.name {
@@ -449,6 +548,8 @@ pub(crate) fn add(
             taken.insert(name.clone());
         }
     }
+    // up to which number the names of a word are taken
+    let mut last = BTreeMap::new();
     for (key, text) in keyed {
         let around = Around {
             key,
@@ -460,8 +561,8 @@ pub(crate) fn add(
         for (i, acting) in list.into_iter().enumerate() {
             let name = match &text.common.name {
                 Some(name) if i == 0 => name.clone(),
-                Some(name) => free(name, &taken),
-                None => free(text.kind.word(), &taken),
+                Some(name) => free(name, &taken, &mut last),
+                None => free(text.kind.word(), &taken, &mut last),
             };
             taken.insert(name.clone());
             world = world.with_acting(acting.named(&name));
@@ -470,57 +571,41 @@ pub(crate) fn add(
     Ok(world)
 }
 
-/// Columns of a record that no force may be called.
-const TAKEN: [&str; 24] = [
-    "kinetic",
-    "tether",
-    "tension",
-    "rigidity",
-    "higher",
-    "wall",
-    "damping",
-    "contact",
-    "frame",
-    "scheme",
-    "parameters",
-    "hand",
-    "total",
-    "step",
-    "t",
-    "node",
-    "x",
-    "y",
-    "vx",
-    "vy",
-    "image",
-    "energy",
-    "v",
-    "outcome",
-];
+/// Columns and keys of a record that no force may be called: what [`Energies`] calls its terms, of a snake or a crowd,
+/// and what else stands in a line.
+fn columns() -> BTreeSet<String> {
+    let terms = Energies::names_with(true, Crowd::FORCES.into_iter());
+    let rest = crate::record::COLUMNS.into_iter().map(str::to_owned);
+    terms.into_iter().chain(rest).collect()
+}
 
 fn check_name(key: &str, name: &str, taken: &BTreeSet<String>) -> Result<(), SceneError> {
     let fine = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
     if name.is_empty() || name.len() > 40 || !name.chars().all(fine) {
         let message = format!(
-            "up to 40 letters, digits, - and _ would do, got \"{}\"",
+            "must be up to 40 letters, digits, - and _, got \"{}\"",
             crate::error::clip(name)
         );
         return Err(SceneError::key(key, message));
     }
     if taken.contains(name) {
-        let message = format!("\"{name}\" is taken; another would do");
+        let message = format!("\"{name}\" is taken; another name is needed");
         return Err(SceneError::key(key, message));
     }
     Ok(())
 }
 
-/// `word`, or `word-2` and so on where that is taken.
-fn free(word: &str, taken: &BTreeSet<String>) -> String {
-    let mut name = word.to_owned();
-    let mut i = 2;
-    while taken.contains(&name) {
-        name = format!("{word}-{i}");
-        i += 1;
+/// `word`, or `word-2` and so on where that is taken; `last` is where the search for each word goes on.
+fn free(word: &str, taken: &BTreeSet<String>, last: &mut BTreeMap<String, usize>) -> String {
+    if !taken.contains(word) {
+        return word.to_owned();
     }
-    name
+    let i = last.entry(word.to_owned()).or_insert(1);
+    loop {
+        *i += 1;
+        let name = format!("{word}-{i}");
+        if !taken.contains(&name) {
+            return name;
+        }
+    }
 }
