@@ -147,3 +147,50 @@ fn a_device_is_written_to_and_stays_a_device() {
             .is_char_device()
     );
 }
+
+#[test]
+fn what_a_record_keeps_needs_a_record() {
+    let folder = Folder::new();
+    folder.write("s.toml", scene(&[]));
+    for flag in [&["--energies"][..], &["--velocities"], &["--every", "2"]] {
+        let args = [&["run", "s.toml"][..], flag].concat();
+        folder.refused(&args, &[flag[0], "needs --record"]);
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn help_for_a_full_device_is_an_error_and_for_a_reader_that_left_is_none() {
+    use std::process::{Command, Stdio};
+    for args in [
+        &["--help"][..],
+        &["fit", "--help"],
+        &["--version"],
+        &["list"],
+    ] {
+        let snake = || {
+            let mut snake = Command::new(env!("CARGO_BIN_EXE_snake"));
+            snake.args(args).stderr(Stdio::piped());
+            snake
+        };
+        let full = std::fs::File::options()
+            .write(true)
+            .open("/dev/full")
+            .unwrap();
+        let output = snake().stdout(full).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{args:?}: {output:?}");
+        let mut child = snake().stdout(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{args:?}: {output:?}");
+    }
+}
+
+#[test]
+fn missing_arguments_are_listed_with_the_usage() {
+    let answer = Folder::new().snake(&["fit"]);
+    assert_eq!(answer.code, Some(2), "{answer:?}");
+    let lines: Vec<&str> = answer.err.lines().collect();
+    assert!(lines[0].contains("--from <CONTOUR>, <IMAGE>"), "{answer:?}");
+    assert!(lines[1].starts_with("Usage: snake fit"), "{answer:?}");
+}

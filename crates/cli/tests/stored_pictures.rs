@@ -23,7 +23,11 @@ fn level(x: usize, y: usize) -> u8 {
 
 /// The same as stored under an orientation of EXIF: what is read there must be turned back.
 fn stored(orientation: u16) -> (usize, usize, Vec<u8>) {
-    let (w, h) = if orientation > 4 { (HEIGHT, WIDTH) } else { (WIDTH, HEIGHT) };
+    let (w, h) = if orientation > 4 {
+        (HEIGHT, WIDTH)
+    } else {
+        (WIDTH, HEIGHT)
+    };
     let mut pixels = Vec::new();
     for row in 0..h {
         for column in 0..w {
@@ -138,7 +142,9 @@ fn a_picture_that_is_stored_turned_is_seen_upright() {
         ] {
             let answer = fit(name, &bytes);
             assert_eq!(answer.out, plain.out, "{name} of orientation {orientation}");
-            let said = answer.err.contains(&format!("turned (orientation {orientation})"));
+            let said = answer
+                .err
+                .contains(&format!("turned (orientation {orientation})"));
             assert_eq!(said, orientation > 1, "{answer:?}");
         }
     }
@@ -177,7 +183,10 @@ fn a_jpeg_that_has_been_cut_or_holds_too_little_is_refused() {
     }
     let claims = jpeg(20_000, 20_000, b"\x00\x0f\xff\xd9");
     let answer = fit("a.jpg", &claims);
-    assert!(answer.err.contains("cannot hold its 20000×20000"), "{answer:?}");
+    assert!(
+        answer.err.contains("cannot hold its 20000×20000"),
+        "{answer:?}"
+    );
     let long = [&whole[..], &vec![0x55; 1 << 20]].concat();
     assert_eq!(fit("a.jpg", &long).out, fit("a.jpg", &whole).out);
 }
@@ -208,7 +217,10 @@ fn every_format_that_has_been_cut_or_claims_too_much_is_refused() {
         assert!(answer.err.contains("cannot hold"), "{name}: {answer:?}");
     }
     // text and profiles that inflate are passed over
-    let bomb = [chunk(b"iCCP", &[b"p\0\0".to_vec(), vec![0; 999]].concat()), chunk(b"zTXt", b"a\0\0x")];
+    let bomb = [
+        chunk(b"iCCP", &[b"p\0\0".to_vec(), vec![0; 999]].concat()),
+        chunk(b"zTXt", b"a\0\0x"),
+    ];
     let answer = fit("a.png", &png(w, h, &pixels, &bomb.concat()));
     assert!(answer.out.starts_with("# contour 1"), "{answer:?}");
 }

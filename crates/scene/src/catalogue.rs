@@ -79,11 +79,9 @@ pub(crate) fn text(name: &str) -> Result<&'static str, SceneError> {
         .iter()
         .find(|(known, _)| *known == name)
         .map(|(_, text)| *text)
-        .ok_or_else(|| {
-            SceneError::UnknownScene {
-                name: name.to_owned(),
-                nearest: crate::error::meant(name, SCENES.iter().map(|(known, _)| *known)),
-            }
+        .ok_or_else(|| SceneError::UnknownScene {
+            name: name.to_owned(),
+            nearest: crate::error::meant(name, SCENES.iter().map(|(known, _)| *known)),
         })
 }
 

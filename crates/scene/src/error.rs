@@ -25,7 +25,8 @@ pub enum SceneError {
     },
     /// No shipped scene has this name.
     #[error(
-        "no shipped scene is called \"{}\"{nearest} (`snake list` shows all; a file needs its ending or a folder)", clip(name)
+        "no shipped scene is called \"{}\"{nearest} (`snake list` shows all; a file needs its ending or a folder)",
+        clip(name)
     )]
     UnknownScene {
         /// The name given.
@@ -138,7 +139,10 @@ mod tests {
 
     #[test]
     fn letters_that_turn_others_about_are_not_shown() {
-        assert_eq!(plain("a\u{202e}b\u{1b}[1mc\u{2066}ä"), "a\u{fffd}b\u{fffd}[1mc\u{fffd}ä");
+        assert_eq!(
+            plain("a\u{202e}b\u{1b}[1mc\u{2066}ä"),
+            "a\u{fffd}b\u{fffd}[1mc\u{fffd}ä"
+        );
         assert_eq!(clip(&"é".repeat(61)), format!("{}…", "é".repeat(60)));
     }
 }

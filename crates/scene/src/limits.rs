@@ -45,7 +45,10 @@ pub(crate) fn room(bytes: u64) -> Result<(), String> {
     if there {
         return Ok(());
     }
-    Err(format!("takes {} MiB, more than there is room for", bytes >> 20))
+    Err(format!(
+        "takes {} MiB, more than there is room for",
+        bytes >> 20
+    ))
 }
 
 /// Pixels a drawn picture may have, 2048 × 2048: as large as any experiment asks for, and a few bytes
@@ -72,6 +75,9 @@ pub(crate) const MOST_KEPT: u64 = 1 << 27;
 
 /// Bytes of a scene's text, enough to write every node of the largest snake out.
 pub(crate) const MOST_SCENE_BYTES: u64 = 64 << 20;
+
+/// Values of a scene's text: nodes of the largest snake, each a list of two numbers.
+pub(crate) const MOST_VALUES: usize = 1 << 22;
 
 /// Bytes of a contour file, enough for the most points at 17 digits with columns to spare.
 pub(crate) const MOST_CONTOUR_BYTES: u64 = 256 << 20;

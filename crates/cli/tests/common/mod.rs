@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 pub(crate) struct Folder(tempfile::TempDir);
 
 /// What the program said.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub(crate) struct Answer {
     pub(crate) code: Option<i32>,
     pub(crate) out: String,

@@ -5,9 +5,9 @@ use snake::{Contact, Plastic, Snake, Upkeep};
 use super::files::Files;
 use super::force::Sight;
 use super::{Rules, body, ends, map, number, refused, world};
+use crate::SceneError;
 use crate::company::Company;
 use crate::file::{AlsoText, ContactText, SceneText, UpkeepText};
-use crate::SceneError;
 use crate::limits::{MOST_FORCES, MOST_IN_ALL, MOST_SNAKES};
 
 /// The company of the scene's snake; None if it is alone and nothing looks after it.
@@ -38,7 +38,9 @@ pub(super) fn company(
         let each = (own.force.len() + own.world.wall.len()).max(things);
         if each.saturating_mul(others.len() + places) > MOST_FORCES {
             let got = others.len() + places;
-            let message = format!("{got} snakes of {each} forces and walls; both multiplied must be at most {MOST_FORCES}");
+            let message = format!(
+                "{got} snakes of {each} forces and walls; both multiplied must be at most {MOST_FORCES}"
+            );
             return Err(SceneError::key(&format!("also {k}: force"), message));
         }
         let within = |error: SceneError| match error {
@@ -51,7 +53,8 @@ pub(super) fn company(
         let mut shape = body::body(&own, rules, files).map_err(within)?;
         nodes = nodes.saturating_add(shape.len().saturating_mul(places));
         if nodes > MOST_IN_ALL {
-            let message = format!("makes {nodes} nodes in all snakes; there must be at most {MOST_IN_ALL}");
+            let message =
+                format!("makes {nodes} nodes in all snakes; there must be at most {MOST_IN_ALL}");
             return Err(SceneError::key(&format!("also {k}: at"), message));
         }
         shape.maps = if also.material.is_none() && also.densities.is_none() {

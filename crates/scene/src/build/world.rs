@@ -59,12 +59,15 @@ pub(super) fn work(
 ) -> Result<(), SceneError> {
     let pixels = (width * height) as u64;
     let refuse = |message: String| {
-        let message = format!("work on all {width}×{height} pixels {message}; a smaller picture is needed");
+        let message =
+            format!("work on all {width}×{height} pixels {message}; a smaller picture is needed");
         Err(SceneError::key(key, message))
     };
     let most = MOST_WHOLE * WORK / bytes;
     if pixels > most {
-        return refuse(format!("takes {bytes} bytes each, for which at most {most} are allowed"));
+        return refuse(format!(
+            "takes {bytes} bytes each, for which at most {most} are allowed"
+        ));
     }
     crate::limits::room(pixels * bytes).or_else(refuse)
 }

@@ -2,17 +2,46 @@
 
 /// Names of a column of x, lower case.
 const X: [&str; 10] = [
-    "x", "position_x", "pos_x", "x_position", "x_coord", "x_coordinate", "coord_x", "col",
-    "column", "xcoord",
+    "x",
+    "position_x",
+    "pos_x",
+    "x_position",
+    "x_coord",
+    "x_coordinate",
+    "coord_x",
+    "col",
+    "column",
+    "xcoord",
 ];
 /// Names of a column of y.
 const Y: [&str; 9] = [
-    "y", "position_y", "pos_y", "y_position", "y_coord", "y_coordinate", "coord_y", "row", "ycoord",
+    "y",
+    "position_y",
+    "pos_y",
+    "y_position",
+    "y_coord",
+    "y_coordinate",
+    "coord_y",
+    "row",
+    "ycoord",
 ];
 /// Names of a column that tells curves apart.
 const CURVE: [&str; 15] = [
-    "curve", "contour", "id", "label", "track", "track_id", "trackid", "object", "object_id",
-    "cell", "roi", "polygon", "shape", "index", "frame",
+    "curve",
+    "contour",
+    "id",
+    "label",
+    "track",
+    "track_id",
+    "trackid",
+    "object",
+    "object_id",
+    "cell",
+    "roi",
+    "polygon",
+    "shape",
+    "index",
+    "frame",
 ];
 /// Units that are pixels.
 const PIXELS: [&str; 5] = ["px", "pixel", "pixels", "pix", ""];
@@ -80,7 +109,11 @@ impl Columns {
 
 /// Axes that are numbered, rows before columns: the last is x and the one before it y.
 fn axes(names: &[(String, String)]) -> Option<(usize, usize)> {
-    let numbered = |k: usize| names.iter().position(|(name, _)| *name == format!("axis-{k}"));
+    let numbered = |k: usize| {
+        names
+            .iter()
+            .position(|(name, _)| *name == format!("axis-{k}"))
+    };
     let last = (0..8).rev().find(|&k| numbered(k).is_some())?;
     Some((numbered(last)?, numbered(last.checked_sub(1)?)?))
 }

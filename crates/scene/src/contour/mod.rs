@@ -109,7 +109,11 @@ impl Contour {
                     let _ = write!(text, ",{number}");
                 }
                 if !alike {
-                    let _ = write!(text, ",{}", curve.closed.map_or("", |c| if c { "1" } else { "0" }));
+                    let _ = write!(
+                        text,
+                        ",{}",
+                        curve.closed.map_or("", |c| if c { "1" } else { "0" })
+                    );
                 }
                 text.push('\n');
             }
@@ -141,6 +145,8 @@ impl Contour {
 struct Reader {
     closed: Option<bool>,
     columns: Option<Columns>,
+    /// Whether a heading has named them.
+    headed: bool,
     separator: Option<Separator>,
     points: Vec<DVec2>,
     /// The curve of each point, and whether it is closed, by columns.
@@ -159,7 +165,9 @@ impl Reader {
             self.line(line)
                 .map_err(|what| format!("line {number}: {what}"))?;
             if self.points.len() > MOST_NODES {
-                return Err(format!("holds more than {MOST_NODES} points, which are the most"));
+                return Err(format!(
+                    "holds more than {MOST_NODES} points, which are the most"
+                ));
             }
         }
         if self.points.is_empty() {
@@ -184,6 +192,7 @@ impl Reader {
             if !numbers && is_heading(&words) && (self.points.is_empty() == self.columns.is_none())
             {
                 self.columns = Some(Columns::of(&words)?);
+                self.headed = true;
                 self.fresh = true;
                 return Ok(());
             }
@@ -193,7 +202,7 @@ impl Reader {
 
     /// A line of numbers.
     fn row(&mut self, separator: Separator, line: &str) -> Result<(), String> {
-        let given = self.columns.is_some();
+        let given = self.headed;
         let columns = *self.columns.get_or_insert(Columns::TWO);
         // a heading may be set otherwise than its columns
         let separator = if given && self.separator.is_none() {
@@ -229,7 +238,9 @@ impl Reader {
             return Err("two numbers x,y are needed".to_owned());
         };
         if !(x.abs() <= FARTHEST && y.abs() <= FARTHEST) {
-            return Err(format!("numbers must be from -{FARTHEST:e} to {FARTHEST:e}"));
+            return Err(format!(
+                "numbers must be from -{FARTHEST:e} to {FARTHEST:e}"
+            ));
         }
         if self.fresh && !self.points.is_empty() {
             self.blocks.push(self.points.len());
@@ -262,9 +273,7 @@ impl Reader {
             && number.bytes().all(|byte| byte.is_ascii_digit())
             && (version.ends_with(',') || rest.first().is_none_or(|word| known.contains(word)));
         match kind {
-            "record" if ours => {
-                Err("this is the record of a run; a contour is needed".to_owned())
-            }
+            "record" if ours => Err("this is the record of a run; a contour is needed".to_owned()),
             "contour" if ours => {
                 if number != VERSION {
                     return Err("this program reads contours of version 1".to_owned());

@@ -52,7 +52,12 @@ impl Fields {
             }
         };
         if self.stages {
-            let stages = ["1-smoothed", "2-gradient-x", "3-gradient-y", "4-edge-strength"];
+            let stages = [
+                "1-smoothed",
+                "2-gradient-x",
+                "3-gradient-y",
+                "4-edge-strength",
+            ];
             names.extend(stages.map(|stage| format!("{stage}.png")));
             force(&mut names, "5-force");
             force(&mut names, "6-report-force");

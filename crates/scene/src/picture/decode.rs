@@ -302,10 +302,15 @@ fn masked_colors(
     dim: (usize, usize),
     invalid: Invalid,
 ) -> Result<Picture, String> {
-    let levels = colors.pixels().map(|p| luma(p.0.map(|v| f64::from(v) * 255.0)));
+    let levels = colors
+        .pixels()
+        .map(|p| luma(p.0.map(|v| f64::from(v) * 255.0)));
     let levels = Grid::from_shape_vec(dim, levels.collect()).map_err(broken)?;
     let (levels, valid) = grid(levels, invalid)?;
-    colors.iter_mut().filter(|v| !v.is_finite()).for_each(|v| *v = 0.0);
+    colors
+        .iter_mut()
+        .filter(|v| !v.is_finite())
+        .for_each(|v| *v = 0.0);
     let mut picture = Picture::of_pixels(Pixels::FloatColors(Arc::new(colors)));
     picture.levels = std::sync::OnceLock::from(levels);
     picture.valid = valid;

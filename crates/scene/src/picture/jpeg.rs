@@ -74,7 +74,11 @@ pub(super) fn gather(input: &mut dyn BufRead, most: u64) -> Result<Found, String
         if coded < frame.blocks * bits / 8 {
             return Err(too_little(coded, frame.width, frame.height));
         }
-        found.working = if frame.progressive { frame.blocks * 128 } else { 0 };
+        found.working = if frame.progressive {
+            frame.blocks * 128
+        } else {
+            0
+        };
     }
     Ok(found)
 }
@@ -122,9 +126,9 @@ fn frame(marker: u8, body: &[u8]) -> Result<Frame, String> {
         .collect();
     let most = |of: fn(&(u64, u64)) -> u64| sampling.iter().map(of).max().unwrap_or(1).max(1);
     let (h, v) = (most(|s| s.0), most(|s| s.1));
-    let blocks = sampling.iter().map(|&(across, down)| {
-        (width * across).div_ceil(8 * h) * (height * down).div_ceil(8 * v)
-    });
+    let blocks = sampling
+        .iter()
+        .map(|&(across, down)| (width * across).div_ceil(8 * h) * (height * down).div_ceil(8 * v));
     Ok(Frame {
         width,
         height,

@@ -298,7 +298,11 @@ impl Picture {
 
     /// The largest level there may be, either way.
     pub(crate) fn largest_level(&self) -> f64 {
-        let beside = || self.levels().iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let beside = || {
+            self.levels()
+                .iter()
+                .fold(0.0, |most: f64, v| most.max(v.abs()))
+        };
         self.pixels.largest().unwrap_or_else(beside)
     }
 

@@ -159,7 +159,11 @@ impl Pixels {
                 let level = |v: f32| {
                     let level = v * 255.0;
                     let near = level.is_finite();
-                    if near { f64::from(level) } else { f64::from(v) * WHITE }
+                    if near {
+                        f64::from(level)
+                    } else {
+                        f64::from(v) * WHITE
+                    }
                 };
                 list.pixels().map(|p| level(p.0[c])).collect()
             }
@@ -237,7 +241,11 @@ impl Pixels {
     pub(super) fn largest(&self) -> Option<f64> {
         match self {
             Self::Floats(_) | Self::FloatColors(_) => {
-                with_levels!(self, levels, levels().fold(0.0, |most: f64, v| most.max(v.abs())))
+                with_levels!(
+                    self,
+                    levels,
+                    levels().fold(0.0, |most: f64, v| most.max(v.abs()))
+                )
             }
             Self::Levels => None,
             _ => Some(WHITE),
@@ -308,7 +316,11 @@ fn at_ranks<I: Iterator<Item = f64>>(values: impl Fn() -> I, mut ranks: [usize; 
     // numbers whose order is that of `f64::total_cmp`
     let key = |value: f64| {
         let bits = value.to_bits();
-        if bits >> 63 == 1 { !bits } else { bits | (1 << 63) }
+        if bits >> 63 == 1 {
+            !bits
+        } else {
+            bits | (1 << 63)
+        }
     };
     let mut known = [0_u64; 2];
     for shift in (0..64 / DIGIT).rev().map(|place| place * DIGIT) {
@@ -337,7 +349,11 @@ fn at_ranks<I: Iterator<Item = f64>>(values: impl Fn() -> I, mut ranks: [usize; 
         }
     }
     known.map(|key| {
-        let bits = if key >> 63 == 1 { key & !(1 << 63) } else { !key };
+        let bits = if key >> 63 == 1 {
+            key & !(1 << 63)
+        } else {
+            !key
+        };
         f64::from_bits(bits)
     })
 }

@@ -59,7 +59,11 @@ pub(super) fn head(
     };
     // text may be set out more widely
     let text = matches!(kind, b'1'..=b'3');
-    let data = if text { data.saturating_mul(2) + (1 << 16) } else { data };
+    let data = if text {
+        data.saturating_mul(2) + (1 << 16)
+    } else {
+        data
+    };
     if let Some(length) = length {
         let rest = length.saturating_sub(bytes.len() as u64);
         if rest < least {
@@ -87,7 +91,11 @@ fn number(input: &mut dyn BufRead, bytes: &mut Vec<u8>) -> Result<u64, String> {
             b'#' => while !matches!(next(input, bytes)?, b'\n' | b'\r') {},
             b'0'..=b'9' => {
                 let before = value.unwrap_or(0);
-                value = Some(before.saturating_mul(10).saturating_add(u64::from(byte - b'0')));
+                value = Some(
+                    before
+                        .saturating_mul(10)
+                        .saturating_add(u64::from(byte - b'0')),
+                );
             }
             _ if byte.is_ascii_whitespace() => {
                 if let Some(value) = value {
@@ -95,7 +103,9 @@ fn number(input: &mut dyn BufRead, bytes: &mut Vec<u8>) -> Result<u64, String> {
                 }
             }
             _ => {
-                return Err("the picture cannot be decoded: a number is needed in its head".to_owned());
+                return Err(
+                    "the picture cannot be decoded: a number is needed in its head".to_owned(),
+                );
             }
         }
     }

@@ -50,11 +50,7 @@ const COMPRESSIONS: [(u64, &str, bool); 15] = [
 ];
 
 /// Read the head of a file of `length` bytes, and its pixels if they are of one channel.
-pub(super) fn read(
-    reader: impl BufRead + Seek,
-    length: u64,
-    most: u64,
-) -> Result<Head, String> {
+pub(super) fn read(reader: impl BufRead + Seek, length: u64, most: u64) -> Result<Head, String> {
     let mut decoder = Decoder::new(reader).map_err(broken)?;
     let mut notes = Vec::new();
     if decoder.more_images() {
@@ -80,8 +76,13 @@ pub(super) fn read(
     };
     let bits = match color {
         tiff::ColorType::Gray(bits) => bits,
-        tiff::ColorType::Multiband { num_samples, bit_depth } => {
-            let message = format!("it has {num_samples} samples of {bit_depth} bits a pixel without a word on their colors");
+        tiff::ColorType::Multiband {
+            num_samples,
+            bit_depth,
+        } => {
+            let message = format!(
+                "it has {num_samples} samples of {bit_depth} bits a pixel without a word on their colors"
+            );
             return Err(unsupported(&message));
         }
         other => {
@@ -98,7 +99,10 @@ pub(super) fn read(
     };
     enough(compression, u64::from(bits), [width, height, length])?;
     let formats = decoder.find_tag_unsigned_vec::<u64>(Tag::SampleFormat);
-    let format = formats.ok().flatten().and_then(|list| list.first().copied());
+    let format = formats
+        .ok()
+        .flatten()
+        .and_then(|list| list.first().copied());
     let format = format.unwrap_or(1);
     let known = match format {
         1 => matches!(bits, 1 | 2 | 4 | 8 | 16),
@@ -113,7 +117,9 @@ pub(super) fn read(
             3 => "floats",
             _ => "numbers of an unknown kind",
         };
-        return Err(unsupported(&format!("its pixels are {kind} of {bits} bits")));
+        return Err(unsupported(&format!(
+            "its pixels are {kind} of {bits} bits"
+        )));
     }
     if format == 3 {
         check_size(width, height, most.min(MOST_WHOLE))?;
@@ -126,7 +132,10 @@ pub(super) fn read(
     limits.intermediate_buffer_size = most.max(usize::try_from(length).unwrap_or(usize::MAX));
     limits.ifd_value_size = MOST_TABLE;
     let read = decoder.with_limits(limits).read_image().map_err(broken)?;
-    #[expect(clippy::cast_possible_truncation, reason = "a picture that has been decoded is in memory")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a picture that has been decoded is in memory"
+    )]
     let dim = (height as usize, width as usize);
     let grey = grey(read, u32::from(bits), dim)?;
     Ok(Head {
@@ -151,13 +160,19 @@ fn grey(read: DecodingResult, bits: u32, dim: (usize, usize)) -> Result<Grey, St
             Pixels::Signed(shaped(dim, wide)?.into_shared())
         }
         DecodingResult::I16(list) => Pixels::Signed(shaped(dim, list)?.into_shared()),
-        DecodingResult::F16(list) => floats(shaped(dim, list.iter().map(|v| v.to_f32()).collect())?),
+        DecodingResult::F16(list) => {
+            floats(shaped(dim, list.iter().map(|v| v.to_f32()).collect())?)
+        }
         DecodingResult::F32(list) => floats(shaped(dim, list)?),
         DecodingResult::F64(mut list) => {
             list.iter_mut().for_each(|v| *v *= 255.0);
             return Ok(Grey::Levels(shaped(dim, list)?));
         }
-        _ => return Err(unsupported("its pixels are whole numbers of 32 bits or more")),
+        _ => {
+            return Err(unsupported(
+                "its pixels are whole numbers of 32 bits or more",
+            ));
+        }
     };
     match pixels {
         Pixels::Floats(list) if !list.iter().all(|v| v.is_finite()) => {

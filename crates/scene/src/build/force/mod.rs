@@ -16,7 +16,9 @@ use std::sync::Arc;
 use elastic::Profile;
 use field::{EdgeForce, FieldError, ForceField, Grid, MaskedImage, Region, Smoothing};
 use glam::DVec2;
-use snake::{Acting, Crowd, Energies, Gravity, ImageForce, Pressure, RegionForce, Sampling, Turned, World};
+use snake::{
+    Acting, Crowd, Energies, Gravity, ImageForce, Pressure, RegionForce, Sampling, Turned, World,
+};
 
 use super::body::{profile, straight};
 use super::edge_field::{Computing, Wanted, edge_field};
@@ -324,9 +326,7 @@ impl<'a> Around<'a> {
             self.closed(kind.word())?;
         }
         Ok(match kind {
-            KindText::Edge(text) if !either(text) => {
-                Acting::new(self.seen()?.signed_edge(text)?)
-            }
+            KindText::Edge(text) if !either(text) => Acting::new(self.seen()?.signed_edge(text)?),
             KindText::Pressure(text) => Acting::new(self.pressure(text)?),
             KindText::Gas(text) => {
                 let (k, area) = self.volume(text)?;
