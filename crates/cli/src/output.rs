@@ -30,6 +30,23 @@ pub(crate) fn say(text: &str) {
     let _ = writeln!(std::io::stderr(), "{}", scene::plain(text));
 }
 
+/// Whether standard output is the null device, which also stands in for one that was closed.
+fn goes_nowhere() -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::{FileTypeExt as _, MetadataExt as _};
+        let device = |path: &str| {
+            let data = std::fs::metadata(path).ok();
+            data.filter(|data| data.file_type().is_char_device())
+                .map(|data| data.rdev())
+        };
+        let null = device("/dev/null");
+        null.is_some() && device("/dev/stdout") == null
+    }
+    #[cfg(not(unix))]
+    false
+}
+
 /// What a run is to leave behind.
 #[derive(Debug)]
 pub(crate) struct Output {
@@ -96,7 +113,14 @@ impl Output {
             let found = record.contours(last);
             match &self.contour {
                 Some(_) if found.is_empty() => say("no curve is left: no contour is written"),
-                Some(path) if is_standard(path) => printed.push_str(&Contour::all_to_text(&found)),
+                Some(path) if is_standard(path) => {
+                    if goes_nowhere() {
+                        say(
+                            "note: standard output is closed or /dev/null: the contour is kept nowhere",
+                        );
+                    }
+                    printed.push_str(&Contour::all_to_text(&found));
+                }
                 Some(path) => Contour::save_all(&found, path)?,
                 None => {}
             }

@@ -194,3 +194,20 @@ fn missing_arguments_are_listed_with_the_usage() {
     assert!(lines[0].contains("--from <CONTOUR>, <IMAGE>"), "{answer:?}");
     assert!(lines[1].starts_with("Usage: snake fit"), "{answer:?}");
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_contour_that_is_kept_nowhere_is_told() {
+    let folder = Folder::new();
+    folder.write("s.toml", scene(&[]));
+    let snake = env!("CARGO_BIN_EXE_snake");
+    for output in [">&-", "> /dev/null"] {
+        let mut shell = std::process::Command::new("sh");
+        let command = format!("'{snake}' run s.toml --out - {output}");
+        let shell = shell.args(["-c", &command]).current_dir(folder.path("."));
+        let done = shell.output().unwrap();
+        assert_eq!(done.status.code(), Some(0), "{done:?}");
+        let said = String::from_utf8_lossy(&done.stderr);
+        assert!(said.contains("the contour is kept nowhere"), "{said}");
+    }
+}

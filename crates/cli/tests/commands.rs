@@ -477,7 +477,6 @@ fn flags_that_are_none_are_refused_on_one_line() {
         &["run", "soft-ball", "--every", "0", "--record", "-"],
         &["--every", "at least 1"],
     );
-    folder.refused(&["run"], &["<SCENE>"]);
     folder.refused(&["runn"], &["'runn'", "'run'"]);
     folder.refused(&["list", "scheems"], &["'scheems'", "schemes"]);
     folder.refused(

@@ -1,5 +1,10 @@
 //! Small texts that ask for very much: refused with the figure, or done in a time that their length explains.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a test: small whole numbers"
+)]
 
 mod common;
 

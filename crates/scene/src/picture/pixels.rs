@@ -174,9 +174,9 @@ impl Pixels {
 
     /// Whether every channel is the same everywhere.
     pub(super) fn is_constant(&self) -> bool {
-        fn same<P: image::Pixel>(image: &ImageBuffer<P, Vec<P::Subpixel>>) -> bool
+        fn same<P>(image: &ImageBuffer<P, Vec<P::Subpixel>>) -> bool
         where
-            P: PartialEq,
+            P: image::Pixel + PartialEq,
         {
             let mut all = image.pixels();
             let first = all.next();

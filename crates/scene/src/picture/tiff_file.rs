@@ -194,9 +194,9 @@ fn unpacked(list: &[u8], bits: u32, (height, width): (usize, usize)) -> Vec<u8> 
     let mut pixels = Vec::with_capacity(width * height);
     for row in list.chunks(row.max(1)).take(height) {
         for x in 0..width {
-            let shift = 8 - bits * (x % each + 1) as u32;
+            let shift = 8 - bits as usize * (x % each + 1);
             let value = u16::from(row.get(x / each).copied().unwrap_or(0) >> shift) & most;
-            pixels.push((value * 255 / most) as u8);
+            pixels.push(u8::try_from(value * 255 / most).unwrap_or(u8::MAX));
         }
     }
     pixels
