@@ -1,11 +1,5 @@
 //! The command `sandbox`: what was asked, which path, which exit code.
 
-#![allow(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "a command talks to its terminal"
-)]
-
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -15,8 +9,38 @@ use sandbox::{
 };
 use scene::Scene;
 use snake::Certificate;
+use std::fmt::Arguments;
+use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::OnceLock;
+
+/// The first error of standard output: later ones follow from it.
+static BROKEN: OnceLock<std::io::Error> = OnceLock::new();
+
+/// Write to standard output. What cannot be written does not stop the work, and decides the exit code.
+fn put(text: Arguments<'_>) {
+    let mut out = std::io::stdout().lock();
+    if let Err(error) = out.write_fmt(text).and_then(|()| out.flush()) {
+        let _ = BROKEN.set(error);
+    }
+}
+
+/// Write to standard error; nobody may be there to read it.
+fn tell_error(text: Arguments<'_>) {
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+// as the standard ones, which panic where nobody reads
+macro_rules! println {
+    ($($part:tt)*) => { put(format_args!("{}\n", format_args!($($part)*))) };
+}
+macro_rules! print {
+    ($($part:tt)*) => { put(format_args!($($part)*)) };
+}
+macro_rules! eprintln {
+    ($($part:tt)*) => { tell_error(format_args!($($part)*)) };
+}
 
 /// The report's experiments: list them, run one, or make every figure.
 ///
@@ -35,39 +59,48 @@ enum What {
     /// Run one experiment and tell its claims and numbers
     Run {
         /// Which, as `sandbox list` names it
-        #[arg(value_parser = ids(), hide_possible_values = true)]
+        #[arg(value_parser = ids(EXPERIMENTS), hide_possible_values = true)]
         id: String,
         /// Also write its drawings and tables into this folder
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
     /// Regimes over mass, damping, stiffness and step, with a page to look through
-    Atlas(Wanted),
+    Atlas {
+        #[command(flatten)]
+        place: Place,
+        /// Only this one; may be given more than once
+        #[arg(long, value_name = "ID", value_parser = ids(ATLAS), hide_possible_values = true)]
+        only: Vec<String>,
+    },
     /// Work against precision of every scheme, with tables and a page; takes a few minutes
-    Integrators(Wanted),
+    Integrators {
+        #[command(flatten)]
+        place: Place,
+        /// Only this one; may be given more than once
+        #[arg(long, value_name = "ID", value_parser = ids(INTEGRATORS), hide_possible_values = true)]
+        only: Vec<String>,
+    },
     /// Say what is known of a scene before it moves: frequencies, largest steps, time to rest
     Certificate {
         /// A shipped scene's name, or a file
-        scene: String,
+        scene: PathBuf,
     },
     /// Make every figure, from nothing, with an index page to look through
     Figures(Figures),
 }
 
 #[derive(Debug, Args)]
-struct Wanted {
+struct Place {
     /// Where drawings, tables and index.html go
     #[arg(long, value_name = "DIR", default_value = "figures")]
     out: PathBuf,
-    /// Only this one; may be given more than once
-    #[arg(long, value_name = "ID")]
-    only: Vec<String>,
 }
 
 #[derive(Debug, Args)]
 struct Figures {
     /// Only this experiment; may be given more than once
-    #[arg(long, value_name = "ID", value_parser = ids(), hide_possible_values = true)]
+    #[arg(long, value_name = "ID", value_parser = ids(EXPERIMENTS), hide_possible_values = true)]
     only: Vec<String>,
     /// Write nothing: run everything and fail if a claim does not hold, a number is not what
     /// sandbox/expected/ says, or a drawing is missing from docs/figures/
@@ -82,29 +115,52 @@ struct Figures {
     out: PathBuf,
 }
 
-fn ids() -> PossibleValuesParser {
-    PossibleValuesParser::new(EXPERIMENTS.iter().map(|experiment| experiment.id))
+fn ids(known: &[&'static Experiment]) -> PossibleValuesParser {
+    PossibleValuesParser::new(known.iter().map(|experiment| experiment.id))
 }
 
 fn main() -> ExitCode {
-    let result = match Asked::parse().what {
+    let asked = match Asked::try_parse() {
+        Ok(asked) => asked,
+        Err(error) if error.use_stderr() => {
+            // nobody may be there to read it
+            let _ = error.print();
+            return ExitCode::from(2);
+        }
+        Err(help) => {
+            print!("{}", help.render());
+            return ended(ExitCode::SUCCESS);
+        }
+    };
+    let result = match asked.what {
         What::List => {
             list();
             Ok(true)
         }
         What::Run { id, out } => run(&id, out.as_deref()),
-        What::Atlas(wanted) => one_by_one(ATLAS, &wanted),
-        What::Integrators(wanted) => one_by_one(INTEGRATORS, &wanted),
+        What::Atlas { place, only } => one_by_one(ATLAS, &place, &only),
+        What::Integrators { place, only } => one_by_one(INTEGRATORS, &place, &only),
         What::Certificate { scene } => certificate(&scene),
         What::Figures(asked) => figures(&asked),
     };
-    match result {
+    ended(match result {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(1),
         Err(error) => {
             eprintln!("error: {error}");
             ExitCode::from(2)
         }
+    })
+}
+
+/// The exit code, unless what was said went nowhere: a reader that left is no error, a full device is one.
+fn ended(code: ExitCode) -> ExitCode {
+    match BROKEN.get() {
+        Some(error) if error.kind() != ErrorKind::BrokenPipe => {
+            eprintln!("error: standard output: cannot be written: {error}");
+            ExitCode::from(2)
+        }
+        _ => code,
     }
 }
 
@@ -138,9 +194,13 @@ fn run(id: &str, out: Option<&Path>) -> Result<bool, SandboxError> {
 }
 
 /// Experiments of one kind, one after the other so that times are not disturbed, with their page.
-fn one_by_one(all: &[&'static Experiment], wanted: &Wanted) -> Result<bool, SandboxError> {
-    let folder = Folder::open(&wanted.out)?;
-    let asked = |id: &str| wanted.only.is_empty() || wanted.only.iter().any(|only| only == id);
+fn one_by_one(
+    all: &[&'static Experiment],
+    place: &Place,
+    only: &[String],
+) -> Result<bool, SandboxError> {
+    let folder = Folder::open(&place.out)?;
+    let asked = |id: &str| only.is_empty() || only.iter().any(|only| only == id);
     let chosen: Vec<_> = all.iter().copied().filter(|one| asked(one.id)).collect();
     let bar = ProgressBar::new(u64::try_from(chosen.len()).unwrap_or(0));
     if let Ok(style) =
@@ -169,12 +229,11 @@ fn one_by_one(all: &[&'static Experiment], wanted: &Wanted) -> Result<bool, Sand
 }
 
 /// What a scene's snake can be said to do, from its start and in its picture.
-fn certificate(name: &str) -> Result<bool, SandboxError> {
-    let path = Path::new(name);
-    let scene = if path.extension().is_some() || path.components().count() > 1 {
-        Scene::load(path)
-    } else {
-        Scene::named(name)
+fn certificate(path: &Path) -> Result<bool, SandboxError> {
+    let file = path.extension().is_some() || path.components().count() > 1;
+    let scene = match path.to_str() {
+        Some(name) if !file => Scene::named(name),
+        _ => Scene::load(path),
     };
     let scene = scene.map_err(|error| SandboxError::Refused {
         experiment: "certificate",

@@ -119,3 +119,37 @@ fn a_folder_that_cannot_be_written_is_refused_before_any_work() {
     }
     assert_eq!(names(folder.path()), ["taken"]);
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_device_is_an_error_and_a_reader_that_left_is_none() {
+    use std::process::Stdio;
+    for arguments in [&["list"][..], &["certificate", "soft-ball"], &["--help"]] {
+        let command = || {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_sandbox"));
+            command.args(arguments).stderr(Stdio::piped());
+            command
+        };
+        let full = std::fs::File::options()
+            .write(true)
+            .open("/dev/full")
+            .unwrap();
+        let output = command().stdout(full).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {output:?}");
+        let mut child = command().stdout(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {output:?}");
+    }
+}
+
+#[test]
+fn an_unknown_experiment_of_the_atlas_or_the_integrators_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for kind in ["atlas", "integrators"] {
+        let output = sandbox(folder.path(), &[kind, "--only", "typo"]);
+        assert_eq!(output.status.code(), Some(2), "{output:?}");
+        assert!(words(&output.stderr).contains("typo"), "{output:?}");
+    }
+    assert!(names(folder.path()).is_empty());
+}

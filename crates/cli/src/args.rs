@@ -30,7 +30,7 @@ pub(crate) enum Command {
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Run {
     /// A shipped scene's name, or a scene file; `-` is standard input.
-    pub scene: String,
+    pub scene: PathBuf,
     /// Another scheme than the scene's.
     #[arg(long, value_name = "NAME")]
     pub scheme: Option<String>,
@@ -62,10 +62,10 @@ pub(crate) struct Run {
     /// Keep energies too.
     #[arg(long)]
     pub energies: bool,
-    /// Write the final contour; `-` is standard output.
+    /// Write the final contour, of several snakes all of them; `-` is standard output.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Write the picture with the start (blue) and the final contour (orange) over it.
+    /// Write the picture with every start (blue) and every final contour (orange) over it.
     #[arg(long, value_name = "PNG")]
     pub overlay: Option<PathBuf>,
 }
@@ -86,14 +86,14 @@ impl std::str::FromStr for Step {
             number => number
                 .parse()
                 .map(Self::Fixed)
-                .map_err(|error| format!("{error}; a number above 0 or auto would do")),
+                .map_err(|_| "a number above 0, or auto, is needed".to_owned()),
         }
     }
 }
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Field {
-    /// The picture: PNG, JPEG, TIFF, PGM or PPM.
+    /// The picture: PNG, JPEG, TIFF, PGM or PPM; `-` is standard input.
     pub image: PathBuf,
     /// Folder to write to; made if it is not there.
     #[arg(long, value_name = "DIR")]
@@ -123,7 +123,7 @@ pub(crate) struct Field {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Fit {
-    /// The picture: PNG, JPEG, TIFF, PGM or PPM.
+    /// The picture: PNG, JPEG, TIFF, PGM or PPM; `-` is standard input.
     pub image: PathBuf,
     /// The contour to start from: a CSV of x,y in pixels, the first pixel's center at 0,0; `-` is
     /// standard input.

@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use scene::field::{Polarity, Smoothing};
 use scene::integrator::Scheme;
 use scene::snake::{Certificate, Outcome};
-use scene::{Computing, Contour, Fields, ForceChoice, Picture, Record, Scene, SceneError};
+use scene::{Claims, Computing, Contour, Fields, ForceChoice, Picture, Record, Scene, SceneError};
 
 use crate::args;
 use crate::output::{Output, put, say};
@@ -21,6 +21,17 @@ pub(crate) fn run(args: &args::Run) -> Answer {
     let plan = &mut scene.plan;
     if let Some(name) = &args.scheme {
         plan.scheme = name.parse::<Scheme>().map_err(|e| key("--scheme", e))?;
+    }
+    if args.record.is_none() {
+        for (flag, given) in [
+            ("--every", args.every.is_some()),
+            ("--velocities", args.velocities),
+            ("--energies", args.energies),
+        ] {
+            if given {
+                return Err(key(flag, "says what a record keeps, and needs --record"));
+            }
+        }
     }
     if args.every == Some(0) {
         return Err(key("--every", "must be at least 1, got 0"));
@@ -99,21 +110,28 @@ pub(crate) fn fit(args: &args::Fit) -> Answer {
         dt: args.dt,
         steps: args.steps,
     };
-    let picture = Picture::load(&args.image)?;
+    two_inputs(&args.image, Some(&args.from))?;
     let contour = Contour::load(&args.from)?;
+    let picture = Picture::load(&args.image)?;
     let output = Output {
         record: None,
         contour: Some(args.out.clone().unwrap_or_else(|| PathBuf::from("-"))),
         overlay: args.overlay.clone(),
     };
-    output.check(Some(&picture))?;
+    let inputs = vec![args.image.clone(), args.from.clone()];
+    output.check(Some(&picture), &inputs)?;
     let mut scene = fit.scene(picture, &contour)?;
+    scene.inputs = inputs;
     let flags = [("run.dt", "--dt", true), ("run.steps", "--steps", true)];
     go(&mut scene, &output, &flags)
 }
 
 pub(crate) fn field(args: &args::Field) -> Answer {
+    two_inputs(&args.image, args.from.as_deref())?;
     let picture = Picture::load(&args.image)?;
+    for note in picture.notes() {
+        say(&format!("note: {note}"));
+    }
     let smoothing = match (args.sigma, args.passes) {
         (Some(sigma), _) => Smoothing::Gaussian(sigma),
         (None, Some(passes)) => Smoothing::Binomial(passes),
@@ -123,6 +141,9 @@ pub(crate) fn field(args: &args::Field) -> Answer {
     if args.all {
         kinds = Fields::every_kind();
     }
+    let mut claims = Claims::default();
+    claims.reads(&args.image);
+    args.from.iter().for_each(|path| claims.reads(path));
     let curve = args.from.as_deref().map(Contour::load).transpose()?;
     let curve = curve.map(|contour| contour.points);
     let fields = Fields {
@@ -131,6 +152,11 @@ pub(crate) fn field(args: &args::Field) -> Answer {
         kinds,
         curve,
     };
+    for file in fields.files(&args.out) {
+        if file.symlink_metadata().is_ok() {
+            claims.writes("--out", &file)?;
+        }
+    }
     let mut text = String::new();
     for file in fields.write(&picture, &args.out)? {
         // writing to a String cannot fail
@@ -172,15 +198,24 @@ pub(crate) fn list(args: &args::List) -> Answer {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Standard input can be read but once.
+fn two_inputs(image: &Path, from: Option<&Path>) -> Result<(), SceneError> {
+    let standard = Path::new("-");
+    if image == standard && from == Some(standard) {
+        let message = "standard input is the picture already; the contour must be a file";
+        return Err(key("--from", message));
+    }
+    Ok(())
+}
+
 /// A shipped scene by its name, or a scene file by its path, or standard input.
-fn find(name: &str) -> Result<Scene, SceneError> {
-    let path = Path::new(name);
-    let shipped = scene::SCENES.iter().any(|(known, _)| *known == name);
+fn find(path: &Path) -> Result<Scene, SceneError> {
+    let name = path.to_str();
+    let shipped = scene::SCENES.iter().any(|(known, _)| Some(*known) == name);
     let file = path.extension().is_some() || path.components().count() > 1 || path.exists();
-    if name == "-" || (file && !shipped) {
-        Scene::load(path)
-    } else {
-        Scene::named(name)
+    match name {
+        Some(name) if name != "-" && (shipped || !file) => Scene::named(name),
+        _ => Scene::load(path),
     }
 }
 
@@ -190,7 +225,7 @@ type Flags<'a> = [(&'a str, &'a str, bool)];
 /// Check, run, write, say how it ended, and turn that into a code.
 fn go(scene: &mut Scene, output: &Output, flags: &Flags<'_>) -> Answer {
     scene.check().map_err(|error| by_flag(error, flags))?;
-    output.check(scene.picture.as_deref())?;
+    output.check(scene.picture.as_deref(), &scene.inputs)?;
     for note in &scene.notes {
         say(&format!("note: {note}"));
     }

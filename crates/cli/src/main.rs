@@ -34,15 +34,19 @@ fn main() -> ExitCode {
 
 /// Help that was asked for, or what is wrong with the flags, on one line.
 fn mistyped(error: &clap::Error) -> ExitCode {
-    let help = !error.use_stderr();
-    if help || error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+    if !error.use_stderr() {
+        return match output::put(&error.render().to_string()) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(refused) => {
+                output::say(&format!("snake: {refused}"));
+                ExitCode::from(2)
+            }
+        };
+    }
+    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
         // nobody may be there to read it
         let _ = error.print();
-        return if help {
-            ExitCode::SUCCESS
-        } else {
-            ExitCode::from(2)
-        };
+        return ExitCode::from(2);
     }
     let text = error.to_string();
     let lines: Vec<&str> = text
@@ -51,8 +55,18 @@ fn mistyped(error: &clap::Error) -> ExitCode {
         .take_while(|line| !line.starts_with("Usage:"))
         .filter(|line| !line.is_empty() && !line.starts_with("For more information"))
         .collect();
-    let line = lines.join("; ");
+    let line = match &lines[..] {
+        // what is missing, as a list
+        [first, missing @ ..] if error.kind() == ErrorKind::MissingRequiredArgument => {
+            format!("{first} {}", missing.join(", "))
+        }
+        _ => lines.join("; "),
+    };
     let line = line.strip_prefix("error: ").unwrap_or(&line);
     output::say(&format!("snake: {line} (--help shows all)"));
+    if error.kind() == ErrorKind::MissingRequiredArgument {
+        let usage = text.lines().find(|line| line.starts_with("Usage:"));
+        usage.into_iter().for_each(output::say);
+    }
     ExitCode::from(2)
 }

@@ -1,10 +1,10 @@
 //! Where results go: files, made sure of before the work and written after it; standard output.
 
 use std::io::{ErrorKind, Write as _};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use scene::snake::Outcome;
-use scene::{Contour, Picture, Record, Scene, SceneError, paint};
+use scene::{Claims, Contour, Picture, Record, Scene, SceneError, is_standard, paint};
 
 use crate::commands::key;
 
@@ -18,7 +18,7 @@ pub(crate) fn put(text: &str) -> Result<(), SceneError> {
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(key(
             "standard output",
-            format!("cannot be written: {error}; a file would do"),
+            format!("cannot be written: {error}; a file or another reader is needed"),
         )),
         _ => Ok(()),
     }
@@ -27,15 +27,24 @@ pub(crate) fn put(text: &str) -> Result<(), SceneError> {
 /// A line for people, to standard error; nobody may be there to read it.
 pub(crate) fn say(text: &str) {
     // titles and names come from files: whatever they hold stays on one line
-    let line: String = text
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let _ = writeln!(std::io::stderr(), "{}", scene::plain(text));
 }
 
-fn is_standard(path: &Path) -> bool {
-    path.as_os_str() == "-"
+/// Whether standard output is the null device, which also stands in for one that was closed.
+fn goes_nowhere() -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::{FileTypeExt as _, MetadataExt as _};
+        let device = |path: &str| {
+            let data = std::fs::metadata(path).ok();
+            data.filter(|data| data.file_type().is_char_device())
+                .map(|data| data.rdev())
+        };
+        let null = device("/dev/null");
+        null.is_some() && device("/dev/stdout") == null
+    }
+    #[cfg(not(unix))]
+    false
 }
 
 /// What a run is to leave behind.
@@ -55,8 +64,13 @@ impl Output {
         ]
     }
 
-    /// Find out before the run whether everything can be written after it.
-    pub(crate) fn check(&self, picture: Option<&Picture>) -> Result<(), SceneError> {
+    /// Find out before the run whether everything can be written after it, and takes the place of nothing that is
+    /// read.
+    pub(crate) fn check(
+        &self,
+        picture: Option<&Picture>,
+        inputs: &[PathBuf],
+    ) -> Result<(), SceneError> {
         if let Some(path) = &self.overlay {
             if picture.is_none() {
                 return Err(key("--overlay", "this scene has no picture to draw on"));
@@ -66,22 +80,19 @@ impl Output {
                 .is_some_and(|e| e.eq_ignore_ascii_case("png"));
             if !png {
                 let message = format!(
-                    "writes PNG; a name that ends in .png would do, got {}",
+                    "writes PNG; the name must end in .png, got {}",
                     path.display()
                 );
                 return Err(key("--overlay", message));
             }
         }
-        let mut seen: Vec<(&str, &Path)> = Vec::new();
+        let mut claims = Claims::default();
+        for path in inputs {
+            claims.reads(path);
+        }
         for (flag, path) in self.all() {
-            let Some(path) = path else { continue };
-            if let Some((other, _)) = seen.iter().find(|(_, known)| known == path) {
-                let message = format!("{} is taken by {other}; another would do", path.display());
-                return Err(key(flag, message));
-            }
-            seen.push((flag, path));
-            if !is_standard(path) {
-                scene::ready_file(path)?;
+            if let Some(path) = path {
+                claims.writes(flag, path)?;
             }
         }
         Ok(())
@@ -99,20 +110,28 @@ impl Output {
             None => {}
         }
         if !matches!(record.outcome, Outcome::Diverged { .. }) {
-            let contour = Contour {
-                closed: Some(record.closed),
-                points: last.nodes.clone(),
-            };
+            let found = record.contours(last);
             match &self.contour {
-                Some(path) if is_standard(path) => printed.push_str(&contour.to_text()),
-                Some(path) => contour.save(path)?,
+                Some(_) if found.is_empty() => say("no curve is left: no contour is written"),
+                Some(path) if is_standard(path) => {
+                    if goes_nowhere() {
+                        say(
+                            "note: standard output is closed or /dev/null: the contour is kept nowhere",
+                        );
+                    }
+                    printed.push_str(&Contour::all_to_text(&found));
+                }
+                Some(path) => Contour::save_all(&found, path)?,
                 None => {}
             }
             if let (Some(path), Some(picture)) = (&self.overlay, &scene.picture) {
-                let curves: [(&[_], bool, [u8; 3]); 2] = [
-                    (&first.nodes, record.closed, START),
-                    (&last.nodes, record.closed, FOUND),
-                ];
+                let start = record.contours(first);
+                let start = start.iter().map(|curve| (curve, START));
+                let found = found.iter().map(|curve| (curve, FOUND));
+                let drawn = start.chain(found);
+                let curves: Vec<_> = drawn
+                    .map(|(curve, color)| (&curve.points[..], curve.closed == Some(true), color))
+                    .collect();
                 paint::save_png(&paint::overlay(picture, &curves), path)?;
             }
         }

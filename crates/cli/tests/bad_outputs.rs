@@ -19,7 +19,7 @@ fn a_file_that_cannot_be_written_is_refused_before_the_run() {
     folder.write("s.toml", scene(&[]));
     std::fs::create_dir(folder.path("d")).unwrap();
     for bad in ["file/r.csv", "no/such/r.csv", "d", "d/.."] {
-        let says = [bad, "cannot be written", "would do"];
+        let says = [bad, "cannot be written", "is needed"];
         // a billion steps would be noticed
         let run = [
             "run",
@@ -146,4 +146,68 @@ fn a_device_is_written_to_and_stays_a_device() {
             .file_type()
             .is_char_device()
     );
+}
+
+#[test]
+fn what_a_record_keeps_needs_a_record() {
+    let folder = Folder::new();
+    folder.write("s.toml", scene(&[]));
+    for flag in [&["--energies"][..], &["--velocities"], &["--every", "2"]] {
+        let args = [&["run", "s.toml"][..], flag].concat();
+        folder.refused(&args, &[flag[0], "needs --record"]);
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn help_for_a_full_device_is_an_error_and_for_a_reader_that_left_is_none() {
+    use std::process::{Command, Stdio};
+    for args in [
+        &["--help"][..],
+        &["fit", "--help"],
+        &["--version"],
+        &["list"],
+    ] {
+        let snake = || {
+            let mut snake = Command::new(env!("CARGO_BIN_EXE_snake"));
+            snake.args(args).stderr(Stdio::piped());
+            snake
+        };
+        let full = std::fs::File::options()
+            .write(true)
+            .open("/dev/full")
+            .unwrap();
+        let output = snake().stdout(full).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{args:?}: {output:?}");
+        let mut child = snake().stdout(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{args:?}: {output:?}");
+    }
+}
+
+#[test]
+fn missing_arguments_are_listed_with_the_usage() {
+    let answer = Folder::new().snake(&["fit"]);
+    assert_eq!(answer.code, Some(2), "{answer:?}");
+    let lines: Vec<&str> = answer.err.lines().collect();
+    assert!(lines[0].contains("--from <CONTOUR>, <IMAGE>"), "{answer:?}");
+    assert!(lines[1].starts_with("Usage: snake fit"), "{answer:?}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_contour_that_is_kept_nowhere_is_told() {
+    let folder = Folder::new();
+    folder.write("s.toml", scene(&[]));
+    let snake = env!("CARGO_BIN_EXE_snake");
+    for output in [">&-", "> /dev/null"] {
+        let mut shell = std::process::Command::new("sh");
+        let command = format!("'{snake}' run s.toml --out - {output}");
+        let shell = shell.args(["-c", &command]).current_dir(folder.path("."));
+        let done = shell.output().unwrap();
+        assert_eq!(done.status.code(), Some(0), "{done:?}");
+        let said = String::from_utf8_lossy(&done.stderr);
+        assert!(said.contains("the contour is kept nowhere"), "{said}");
+    }
 }

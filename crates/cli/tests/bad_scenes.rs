@@ -132,7 +132,11 @@ fn a_name_that_nothing_has_is_answered_with_the_nearest() {
     folder.refused(&["run", "no.toml"], &["no.toml", "No such file"]);
     folder.refused(&["run", "no/such"], &["no/such", "No such file"]);
     folder.refused(&["run", "."], &["directory"]);
-    folder.refused(&["run", ""], &["did you mean"]);
+    folder.refused(&["run", ""], &["a value is required"]);
+    folder.refused(
+        &["run", "nosuch"],
+        &["no shipped scene is called \"nosuch\" (", "list"],
+    );
     let args = ["run", "s.toml", "--scheme", "newmarc"];
     folder.refused(&args, &["--scheme", "newmarc", "nearest is newmark"]);
 }

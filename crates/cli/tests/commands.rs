@@ -474,10 +474,9 @@ fn flags_that_are_none_are_refused_on_one_line() {
     folder.refused(&["run", "soft-ball", "--steps", "-3"], &["'-3'"]);
     folder.refused(&["run", "soft-ball", "--record", ""], &["--record <FILE>"]);
     folder.refused(
-        &["run", "soft-ball", "--every", "0"],
+        &["run", "soft-ball", "--every", "0", "--record", "-"],
         &["--every", "at least 1"],
     );
-    folder.refused(&["run"], &["<SCENE>"]);
     folder.refused(&["runn"], &["'runn'", "'run'"]);
     folder.refused(&["list", "scheems"], &["'scheems'", "schemes"]);
     folder.refused(

@@ -79,12 +79,9 @@ pub(crate) fn text(name: &str) -> Result<&'static str, SceneError> {
         .iter()
         .find(|(known, _)| *known == name)
         .map(|(_, text)| *text)
-        .ok_or_else(|| {
-            let nearest = crate::error::nearest(name, SCENES.iter().map(|(known, _)| *known));
-            SceneError::UnknownScene {
-                name: name.to_owned(),
-                nearest: nearest.to_owned(),
-            }
+        .ok_or_else(|| SceneError::UnknownScene {
+            name: name.to_owned(),
+            nearest: crate::error::meant(name, SCENES.iter().map(|(known, _)| *known)),
         })
 }
 
@@ -118,8 +115,10 @@ pub const APPLE_DISTURBING: [(&str, [f64; 4]); 8] = [
 /// A name that none has; the message has the nearest one.
 pub fn contour(name: &str) -> Result<Contour, SceneError> {
     let Some((_, text)) = CONTOURS.iter().find(|(known, _)| *known == name) else {
-        let nearest = crate::error::nearest(name, CONTOURS.iter().map(|(known, _)| *known));
-        let message = format!("no shipped contour \"{name}\"; did you mean \"{nearest}\"?");
+        let known: Vec<&str> = CONTOURS.iter().map(|(known, _)| *known).collect();
+        let meant = crate::error::meant(name, known.iter().copied());
+        let (name, known) = (crate::error::clip(name), known.join(", "));
+        let message = format!("no shipped contour \"{name}\"{meant} (known: {known})");
         return Err(SceneError::key("shipped", message));
     };
     Contour::parse(text).map_err(|message| SceneError::key("shipped", message))

@@ -25,12 +25,13 @@ pub enum SceneError {
     },
     /// No shipped scene has this name.
     #[error(
-        "no shipped scene is called \"{name}\"; did you mean \"{nearest}\"? (`snake list` shows all; a file needs its ending or a folder)"
+        "no shipped scene is called \"{}\"{nearest} (`snake list` shows all; a file needs its ending or a folder)",
+        clip(name)
     )]
     UnknownScene {
         /// The name given.
         name: String,
-        /// The nearest shipped one.
+        /// A question that names the nearest shipped one, or nothing.
         nearest: String,
     },
     /// A file that cannot be read or written.
@@ -64,22 +65,84 @@ impl SceneError {
 
 /// At most sixty characters of what was given, on one line, for a message.
 pub(crate) fn clip(given: &str) -> String {
-    let mut short: String = given
-        .trim()
-        .chars()
-        .take(60)
-        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
-        .collect();
-    if given.trim().chars().nth(60).is_some() {
+    clip_to(given, 60)
+}
+
+/// [`clip`] to so many characters.
+pub(crate) fn clip_to(given: &str, most: usize) -> String {
+    let mut short = plain(&given.trim().chars().take(most).collect::<String>());
+    if given.trim().chars().nth(most).is_some() {
         short.push('…');
     }
     short
 }
 
-/// The entry of `known` that is most like `word`.
-pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> &'a str {
-    known
-        .into_iter()
-        .max_by(|a, b| strsim::jaro_winkler(word, a).total_cmp(&strsim::jaro_winkler(word, b)))
-        .unwrap_or("")
+/// Text on one line, without letters that would move the cursor or turn the order of others about.
+#[must_use]
+pub fn plain(text: &str) -> String {
+    let shown = |c: char| !(c.is_control() || is_directing(c));
+    text.chars()
+        .map(|c| if shown(c) { c } else { '\u{fffd}' })
+        .collect()
+}
+
+/// Letters without a shape that change how those around them are shown: directions, separators of lines, marks of a
+/// beginning.
+const fn is_directing(c: char) -> bool {
+    matches!(
+        c,
+        '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}'
+    )
+}
+
+/// What to say behind an unknown word: the known one that it is most like, if it is like any.
+pub(crate) fn meant<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    match nearest(word, known) {
+        Some(near) => format!("; did you mean \"{near}\"?"),
+        None => String::new(),
+    }
+}
+
+/// The entry of `known` that a slip of the keys could turn into `word`, whatever the case of letters.
+fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let word: String = word.trim().chars().take(100).collect();
+    let word = word.to_lowercase();
+    let like = |known: &str| strsim::jaro_winkler(&word, &known.to_lowercase());
+    let near = |known: &&str| {
+        let slips = strsim::osa_distance(&word, &known.to_lowercase());
+        slips <= (known.chars().count() / 3).max(1) || like(known) >= 0.9
+    };
+    let known = known.into_iter().filter(near);
+    known.max_by(|a, b| like(a).total_cmp(&like(b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_word_that_a_slip_makes_is_taken_for_a_known_one() {
+        let known = ["gvf", "edge", "gravity", "soft-ball", "two-cells"];
+        for (word, near) in [
+            ("GVF", Some("gvf")),
+            ("gvff", Some("gvf")),
+            ("egde", Some("edge")),
+            ("soft-bal", Some("soft-ball")),
+            ("Soft-Ball", Some("soft-ball")),
+            ("nosuch", None),
+            ("zzz", None),
+            ("", None),
+        ] {
+            assert_eq!(nearest(word, known), near, "{word}");
+        }
+    }
+
+    #[test]
+    fn letters_that_turn_others_about_are_not_shown() {
+        assert_eq!(
+            plain("a\u{202e}b\u{1b}[1mc\u{2066}ä"),
+            "a\u{fffd}b\u{fffd}[1mc\u{fffd}ä"
+        );
+        assert_eq!(clip(&"é".repeat(61)), format!("{}…", "é".repeat(60)));
+    }
 }

@@ -130,7 +130,8 @@ impl Fit {
             return Err(SceneError::key("--strength", message));
         }
         let sight = Sight::of(&picture)?.for_fit(self.computing);
-        let notes = sight.note().into_iter().collect();
+        let mut notes = picture.notes().to_vec();
+        notes.extend(sight.note());
         let topology = if closed {
             Topology::Closed
         } else {
@@ -188,6 +189,7 @@ impl Fit {
             },
             resolves: Some(RESOLVES * self.sigma),
             notes,
+            inputs: Vec::new(),
         })
     }
 

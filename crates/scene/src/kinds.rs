@@ -4,7 +4,7 @@ use field::Polarity;
 
 use crate::SceneError;
 use crate::build::force;
-use crate::error::{clip, nearest};
+use crate::error::{clip, meant};
 use crate::file::{CommonText, EdgeText, ForceText, KindText, PolarityText, WORDS};
 
 /// A kind of force that a scene can name.
@@ -76,10 +76,10 @@ impl ForceChoice {
                 None => (text, None),
             };
             if !WORDS.contains(&name) {
-                let (name, near) = (clip(name), nearest(name, WORDS.iter().copied()));
+                let (name, meant) = (clip(name), meant(name, WORDS.iter().copied()));
                 let known = WORDS.join(", ");
                 return Err(format!(
-                    "no kind of force is called \"{name}\"; did you mean \"{near}\"? (known: {known})"
+                    "no kind of force is called \"{name}\"{meant} (known: {known})"
                 ));
             }
             let weight = match weight.map(str::parse::<f64>) {

@@ -20,6 +20,7 @@
 
 mod build;
 mod catalogue;
+mod claims;
 mod company;
 mod contour;
 mod error;
@@ -37,14 +38,16 @@ mod picture;
 mod read;
 mod record;
 mod scene;
+mod substeps;
 mod toml_error;
 mod write;
 
 pub use build::Computing;
 pub use catalogue::{APPLE_DISTURBING, SCENES, contour, headline};
+pub use claims::{Claims, is_standard};
 pub use company::Company;
 pub use contour::Contour;
-pub use error::SceneError;
+pub use error::{SceneError, plain};
 pub use evidence::{Evidence, Narrow};
 pub use fit::Fit;
 pub use hand::Hand;

@@ -187,7 +187,7 @@ fn blend(image: &mut RgbImage, p: DVec2, colour: [u8; 3], cover: f64) {
 /// A picture with curves over it, each with its colour.
 #[must_use]
 pub fn overlay(picture: &Picture, curves: &[(&[DVec2], bool, [u8; 3])]) -> RgbImage {
-    let mut image = picture.display().clone();
+    let mut image = picture.shown();
     let width = (f64::from(image.width().max(image.height())) / 250.0).clamp(1.0, 4.0);
     for &(nodes, closed, colour) in curves {
         draw_curve(&mut image, nodes, closed, width, colour);

@@ -20,7 +20,7 @@ pub(crate) fn called(path: &Path) -> PathBuf {
 /// The text of a file, or of standard input for `-`; `wanted` says what would do instead.
 pub(crate) fn text(path: &Path, wanted: &str, most: u64) -> Result<String, SceneError> {
     let refuse =
-        |what: String| SceneError::file(&called(path), format!("{what}; {wanted} would do"));
+        |what: String| SceneError::file(&called(path), format!("{what}; {wanted} is needed"));
     let broken = |error: std::io::Error| refuse(format!("cannot be read: {error}"));
     let mut bytes = Vec::new();
     let reader: Box<dyn Read> = if path.as_os_str() == "-" {
@@ -36,10 +36,29 @@ pub(crate) fn text(path: &Path, wanted: &str, most: u64) -> Result<String, Scene
     if bytes.len() as u64 > most {
         return Err(refuse(format!("holds more than {} MiB", most >> 20)));
     }
-    let text = String::from_utf8(bytes).map_err(|_| refuse("is not text".to_owned()))?;
+    let mut text = String::from_utf8(bytes).map_err(|error| refuse(foreign(error.as_bytes())))?;
     // what some programs write before any text
-    Ok(match text.strip_prefix('\u{feff}') {
-        Some(rest) => rest.to_owned(),
-        None => text,
-    })
+    if text.starts_with('\u{feff}') {
+        text.drain(..'\u{feff}'.len_utf8());
+    }
+    Ok(text)
+}
+
+/// What to say of bytes that are no UTF-8.
+fn foreign(bytes: &[u8]) -> String {
+    if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
+        return "is text in UTF-16 and must be in UTF-8".to_owned();
+    }
+    let valid = match std::str::from_utf8(bytes) {
+        Ok(_) => bytes.len(),
+        Err(error) => error.valid_up_to(),
+    };
+    let line = bytes[..valid].iter().filter(|&&byte| byte == b'\n').count() + 1;
+    // text of another code has letters and spaces all over, and no zeros
+    let text = |byte: &&u8| **byte >= 0x20 || matches!(**byte, b'\n' | b'\r' | b'\t');
+    if bytes.iter().take(4096).all(|byte| text(&byte)) {
+        format!("line {line} is not UTF-8 (Latin-1, perhaps), which is needed")
+    } else {
+        "is not text".to_owned()
+    }
 }

@@ -13,7 +13,7 @@ use snake::{Energies, Ledger, Outcome, Snake};
 
 use crate::scene::{Recording, Scene};
 use crate::write::write_whole;
-use crate::{Evidence, SceneError};
+use crate::{Contour, Evidence, SceneError};
 
 /// One moment of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -172,6 +172,12 @@ struct Footer<'a> {
     events: &'a [String],
 }
 
+/// What else than energies a line has a name for, in either format.
+pub(crate) const COLUMNS: [&str; 16] = [
+    "step", "t", "node", "x", "y", "vx", "vy", "v", "energy", "others", "total", "curve", "image",
+    "outcome", "events", "at",
+];
+
 /// The version of both formats.
 const VERSION: u32 = 1;
 
@@ -197,6 +203,22 @@ impl Record {
     #[must_use]
     pub fn last(&self) -> Option<&Frame> {
         self.frames.last()
+    }
+
+    /// Every curve of a moment as a contour, in the order of their numbers.
+    #[must_use]
+    pub fn contours(&self, frame: &Frame) -> Vec<Contour> {
+        let first = Contour {
+            closed: Some(self.closed),
+            points: frame.nodes.clone(),
+        };
+        let others = frame.others.iter().map(|curve| Contour {
+            closed: Some(curve.closed),
+            points: curve.nodes.clone(),
+        });
+        // a crowd of which none is left has no curve
+        let all = std::iter::once(first).chain(others);
+        all.filter(|curve| !curve.points.is_empty()).collect()
     }
 
     /// The record as JSON Lines: a header, one line a kept moment, the outcome.

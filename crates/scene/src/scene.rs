@@ -1,7 +1,7 @@
 //! A situation ready to run: a snake, its start, and the plan of the run.
 
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Arc;
 
@@ -171,6 +171,8 @@ pub struct Scene {
     pub resolves: Option<f64>,
     /// What people should know of it though nothing is refused.
     pub notes: Vec<String>,
+    /// The files that it was read from, as far as they are known: no result may take their place.
+    pub inputs: Vec<PathBuf>,
 }
 
 impl Scene {
@@ -194,8 +196,10 @@ impl Scene {
             .file_stem()
             .map_or_else(String::new, |s| s.to_string_lossy().into_owned());
         let folder = path.parent().unwrap_or_else(|| Path::new("."));
-        Self::parse(&name, &text, folder)
-            .map_err(|error| SceneError::file(&read::called(path), error))
+        let mut scene = Self::parse(&name, &text, folder)
+            .map_err(|error| SceneError::file(&read::called(path), error))?;
+        scene.inputs.push(path.to_owned());
+        Ok(scene)
     }
 
     /// A scene from text; files that it names are looked for in `folder`.
@@ -310,21 +314,7 @@ impl Scene {
                 );
                 return Err(SceneError::key("run.scheme", message));
             }
-            if let Some(limit) = self.step_limit().filter(|limit| *limit > 0.0) {
-                let outputs = if plan.each {
-                    1.0
-                } else {
-                    plan.until.steps as f64
-                };
-                let least = outputs * plan.dt / limit;
-                if least > MOST_STEPS as f64 {
-                    let message = format!(
-                        "asks for {least:.1e} sub-steps at the least, as none may be longer than {limit:.3e}; must be at most \
-                         {MOST_STEPS}"
-                    );
-                    return Err(SceneError::key("run.output", message));
-                }
-            }
+            self.check_substeps()?;
             if self.company.is_some() && plan.each {
                 let message = "snakes that meet are written at times they share; a time between steps would do";
                 return Err(SceneError::key("run.output", message));

@@ -1,8 +1,9 @@
 //! TOML's own messages, turned into one line that names the place and what would do.
 
 use crate::SceneError;
-use crate::error::{clip, nearest};
+use crate::error::{clip, meant};
 use crate::file::SceneText;
+use crate::limits::MOST_VALUES;
 
 /// Read the text of a scene.
 pub(crate) fn parse(text: &str) -> Result<SceneText, SceneError> {
@@ -11,6 +12,7 @@ pub(crate) fn parse(text: &str) -> Result<SceneText, SceneError> {
 
 /// Read a text of any shape.
 pub(crate) fn read<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, SceneError> {
+    few_enough(text)?;
     toml::from_str(text).map_err(|error| {
         let start = error.span().map_or(0, |span| span.start.min(text.len()));
         let before = text.get(..start).unwrap_or("");
@@ -25,6 +27,24 @@ pub(crate) fn read<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Scen
             message,
         }
     })
+}
+
+/// Refuse a text of more values than a scene can need, before each takes its hundred bytes and more.
+fn few_enough(text: &str) -> Result<(), SceneError> {
+    let mut values = 0;
+    for (number, line) in (1..).zip(text.lines()) {
+        // whatever ends or begins one, in words and comments too: a scene has few of those
+        values += line.bytes().filter(|byte| b",=[{".contains(byte)).count();
+        if values > MOST_VALUES {
+            let message =
+                format!("the text holds more than {MOST_VALUES} values, which are the most");
+            return Err(SceneError::Text {
+                line: number,
+                message,
+            });
+        }
+    }
+    Ok(())
 }
 
 /// A message of serde's, with the nearest known key where it names an unknown one.
@@ -44,14 +64,14 @@ fn helpful(message: &str) -> String {
             if known.is_empty() {
                 return clip(message);
             }
-            let nearest = nearest(word, known.iter().copied());
+            let meant = meant(word, known.iter().copied());
             let what = if message.starts_with("unknown field") {
                 "key"
             } else {
                 "word"
             };
             let (word, known) = (clip(word), known.join(", "));
-            format!("unknown {what} \"{word}\"; did you mean \"{nearest}\"? (known: {known})")
+            format!("unknown {what} \"{word}\"{meant} (known: {known})")
         }
         _ => message.lines().collect::<Vec<_>>().join(", "),
     }

@@ -1,8 +1,7 @@
 //! Files written whole or not at all: beside, then renamed.
 
-use std::borrow::Cow;
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::SceneError;
 
@@ -14,59 +13,110 @@ fn folder(path: &Path) -> &Path {
     }
 }
 
-/// Where a path leads: a link is followed, so that what it points to is replaced and not the link.
-fn followed(path: &Path) -> Cow<'_, Path> {
-    if path.is_symlink() {
-        std::fs::canonicalize(path).map_or(Cow::Borrowed(path), Cow::Owned)
-    } else {
-        Cow::Borrowed(path)
+/// Links from one to the next that are followed, as many as Linux does.
+const MOST_LINKS: usize = 40;
+
+/// Where a path leads: links are followed, so that what they point to is written and no link is replaced; the last
+/// may point to a file that is not there yet.
+pub(crate) fn followed(path: &Path) -> std::io::Result<PathBuf> {
+    let mut at = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        match std::fs::read_link(&at) {
+            Ok(next) => at = folder(&at).join(next),
+            Err(_) => return Ok(at),
+        }
     }
+    Err(std::io::Error::other("too many links"))
 }
 
-/// Whether something is there that is no file and must not be replaced by one: a device, a pipe.
-fn is_stream(path: &Path) -> bool {
+/// Whether something is there that is no file and must not be replaced by one: a device, a pipe, or what a process
+/// has open (`/dev/stdout`, `/dev/fd/3`), which may be a file that others write to as well.
+pub(crate) fn is_stream(path: &Path) -> bool {
     std::fs::metadata(path).is_ok_and(|data| !data.is_file() && !data.is_dir())
+        || is_descriptor(path)
+}
+
+/// Whether a path leads through the open files of a process.
+fn is_descriptor(path: &Path) -> bool {
+    let mut at = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let place = std::fs::canonicalize(folder(&at)).unwrap_or_default();
+        if place.starts_with("/proc") && place.ends_with("fd") {
+            return true;
+        }
+        match std::fs::read_link(&at) {
+            Ok(next) => at = folder(&at).join(next),
+            Err(_) => return false,
+        }
+    }
+    false
 }
 
 fn unwritable(path: &Path, error: impl std::fmt::Display) -> SceneError {
     SceneError::file(
         path,
-        format!("cannot be written: {error}; another file would do"),
+        format!("cannot be written: {error}; another file is needed"),
     )
 }
 
+/// A new file in the folder of `path`, for everybody that the process's mask lets.
 fn beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
-    tempfile::Builder::new()
-        .prefix(".being-written-")
-        .tempfile_in(folder(path))
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".being-written-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder(path))
+}
+
+/// What is known of a file that is there and is to be replaced; a file that may not be written is an error, though
+/// its folder would let it be replaced.
+fn replaced(target: &Path) -> std::io::Result<Option<std::fs::Metadata>> {
+    match std::fs::OpenOptions::new().write(true).open(target) {
+        Ok(file) => {
+            let data = file.metadata()?;
+            // whoever may do everything may open it all the same
+            if data.permissions().readonly() {
+                return Err(std::io::Error::other("it is read-only"));
+            }
+            Ok(Some(data))
+        }
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
+    }
 }
 
 /// Write `bytes` to `path`: first into a file of another name in the same folder, then renamed, so
 /// that nobody ever sees half of it and an old file stays until the new one is complete.
 ///
-/// A link is followed; a device or a pipe is written to as it is.
+/// A file that is there keeps its permissions; a new one has those that the process's mask leaves. Links are followed;
+/// a device or a pipe is written to as it is.
 ///
 /// # Errors
 ///
-/// A folder that is not there or cannot be written, or a full disk; by the path.
+/// A folder that is not there or cannot be written, a file that is read-only, or a full disk; by the path.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), SceneError> {
     let refuse = |error: std::io::Error| unwritable(path, error);
     if is_stream(path) {
+        // what is a file behind a descriptor grows, as by any other output there
         let mut stream = std::fs::OpenOptions::new()
-            .write(true)
+            .append(true)
             .open(path)
             .map_err(refuse)?;
         return stream.write_all(bytes).map_err(refuse);
     }
-    let target = followed(path);
+    let target = followed(path).map_err(refuse)?;
+    let before = replaced(&target).map_err(refuse)?;
     let mut beside = beside(&target).map_err(refuse)?;
     beside.write_all(bytes).map_err(refuse)?;
-    #[cfg(unix)]
-    {
-        // a temporary file is private; the result is as public as any other file
-        use std::os::unix::fs::PermissionsExt as _;
-        let public = std::fs::Permissions::from_mode(0o644);
-        beside.as_file().set_permissions(public).map_err(refuse)?;
+    if let Some(before) = before {
+        keep_owner(beside.as_file(), &before);
+        beside
+            .as_file()
+            .set_permissions(before.permissions())
+            .map_err(refuse)?;
     }
     beside
         .persist(&target)
@@ -74,17 +124,31 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), SceneError> {
     Ok(())
 }
 
+/// Give a file the owner and the group of the one it replaces, where that is allowed.
+#[cfg(unix)]
+fn keep_owner(file: &std::fs::File, before: &std::fs::Metadata) {
+    use std::os::unix::fs::{MetadataExt as _, fchown};
+    // it is ours already, or cannot be made another's: then whoever writes it owns it, as any new file
+    let _ = fchown(file, Some(before.uid()), Some(before.gid()));
+}
+
+#[cfg(not(unix))]
+fn keep_owner(_: &std::fs::File, _: &std::fs::Metadata) {}
+
 /// Make sure that [`write_whole`] will be able to write `path`, before any work is done for it.
 ///
 /// # Errors
 ///
-/// A path that is a folder, or a file in a folder that is not there or cannot be written.
+/// A path that is a folder, a file that is read-only, or one in a folder that is not there or cannot be written.
 pub fn ready_file(path: &Path) -> Result<(), SceneError> {
+    let refuse = |error: std::io::Error| unwritable(path, error);
     if path.is_dir() || path.file_name().is_none() {
         return Err(unwritable(path, "it is a folder"));
     }
     if !is_stream(path) {
-        beside(&followed(path)).map_err(|error| unwritable(path, error))?;
+        let target = followed(path).map_err(refuse)?;
+        replaced(&target).map_err(refuse)?;
+        beside(&target).map_err(refuse)?;
     }
     Ok(())
 }
@@ -96,7 +160,7 @@ pub fn ready_file(path: &Path) -> Result<(), SceneError> {
 /// A path that is a file, or a folder that cannot be made or written.
 pub fn ready_folder(path: &Path) -> Result<(), SceneError> {
     let refuse = |error: std::io::Error| {
-        let message = format!("cannot be used as a folder for results: {error}; another would do");
+        let message = format!("cannot be used as a folder for results: {error}; another is needed");
         SceneError::file(path, message)
     };
     std::fs::create_dir_all(path).map_err(refuse)?;
@@ -138,6 +202,46 @@ mod tests {
                 .file_type()
                 .is_char_device()
         );
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_keeps_its_mode_and_one_that_is_read_only_is_not_replaced() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.csv");
+        let mode = |file: &Path| std::fs::metadata(file).unwrap().permissions().mode() & 0o777;
+        write_whole(&file, b"one").unwrap();
+        // as any other new file, whatever the mask
+        std::fs::write(folder.path().join("b"), b"one").unwrap();
+        assert_eq!(mode(&file), mode(&folder.path().join("b")));
+        for bits in [0o600, 0o660, 0o640] {
+            std::fs::set_permissions(&file, std::fs::Permissions::from_mode(bits)).unwrap();
+            write_whole(&file, b"two").unwrap();
+            assert_eq!(mode(&file), bits);
+        }
+        std::fs::set_permissions(&file, std::fs::Permissions::from_mode(0o444)).unwrap();
+        assert!(ready_file(&file).is_err() && write_whole(&file, b"three").is_err());
+        assert_eq!(std::fs::read(&file).unwrap(), b"two");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_that_lead_nowhere_stay_links() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        symlink("b", at("a")).unwrap();
+        symlink("c", at("b")).unwrap();
+        ready_file(&at("a")).unwrap();
+        assert!(!at("c").exists());
+        write_whole(&at("a"), b"one").unwrap();
+        assert!(at("a").is_symlink() && at("b").is_symlink());
+        assert_eq!(std::fs::read(at("c")).unwrap(), b"one");
+        symlink("loop", at("loop")).unwrap();
+        assert!(ready_file(&at("loop")).is_err() && write_whole(&at("loop"), b"one").is_err());
+        symlink("no/such", at("far")).unwrap();
+        assert!(ready_file(&at("far")).is_err() && at("far").is_symlink());
     }
 
     #[test]

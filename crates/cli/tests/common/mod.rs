@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 pub(crate) struct Folder(tempfile::TempDir);
 
 /// What the program said.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub(crate) struct Answer {
     pub(crate) code: Option<i32>,
     pub(crate) out: String,
@@ -180,7 +180,7 @@ pub(crate) fn png_head(width: u32, height: u32) -> Vec<u8> {
     bytes
 }
 
-fn crc(bytes: &[u8]) -> u32 {
+pub(crate) fn crc(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |crc, &byte| {
         (0..8).fold(crc ^ u32::from(byte), |c, _| {
             if c & 1 == 1 {

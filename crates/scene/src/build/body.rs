@@ -1,12 +1,11 @@
 //! The body: rest shape, material, densities, schedules; and the state it starts in.
 
-use std::path::Path;
-
 use elastic::{Material, Profile, SpacingRule};
 use glam::DVec2;
 use integrator::State;
 use snake::{Body, Damping, Frame, Maps, Schedule, Schedules, Snake, SnakeError, Term};
 
+use super::files::Files;
 use super::shape::{self, nodes, topology};
 use super::{Rules, number, refused};
 use crate::SceneError;
@@ -140,13 +139,13 @@ fn material(text: &SceneText, n: usize) -> Result<Material, SceneError> {
     Ok(material)
 }
 
-pub(super) fn body(text: &SceneText, rules: Rules, folder: &Path) -> Result<Body, SceneError> {
+pub(super) fn body(text: &SceneText, rules: Rules, files: &Files<'_>) -> Result<Body, SceneError> {
     let topology = topology(&text.snake.topology, rules);
     let (shape, key) = match &text.snake.rest {
         Some(rest) => (rest, "snake.rest"),
         None => (&text.snake.start, "snake.start"),
     };
-    let rest = nodes(text, shape, key, rules, folder)?;
+    let rest = nodes(text, shape, key, rules, files)?;
     let n = rest.len();
     elastic::validate_nodes(&rest, topology).map_err(|e| shape::refused(key, &e))?;
     let rule = match rules.spacing {
@@ -259,9 +258,9 @@ pub(super) fn start(
     text: &SceneText,
     body: &Body,
     rules: Rules,
-    folder: &Path,
+    files: &Files<'_>,
 ) -> Result<State, SceneError> {
-    let x = nodes(text, &text.snake.start, "snake.start", rules, folder)?;
+    let x = nodes(text, &text.snake.start, "snake.start", rules, files)?;
     if x.len() != body.len() {
         let (got, needed) = (x.len(), body.len());
         let message = format!("has {got} nodes, but the rest shape has {needed}; as many would do");

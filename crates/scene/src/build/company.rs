@@ -1,34 +1,48 @@
 //! Further snakes, contact and upkeep.
 
-use std::path::Path;
-
 use snake::{Contact, Plastic, Snake, Upkeep};
 
+use super::files::Files;
+use super::force::Sight;
 use super::{Rules, body, ends, map, number, refused, world};
+use crate::SceneError;
 use crate::company::Company;
 use crate::file::{AlsoText, ContactText, SceneText, UpkeepText};
-use crate::limits::MOST_SNAKES;
-use crate::{Picture, SceneError};
+use crate::limits::{MOST_FORCES, MOST_IN_ALL, MOST_SNAKES};
 
 /// The company of the scene's snake; None if it is alone and nothing looks after it.
 pub(super) fn company(
     text: &SceneText,
     rules: Rules,
-    picture: Option<&Picture>,
+    sight: Option<&Sight<'_>>,
     first: &Snake,
-    folder: &Path,
+    files: &Files<'_>,
 ) -> Result<Option<Company>, SceneError> {
     if text.also.is_empty() && text.contact.is_none() && text.upkeep.is_none() {
         return Ok(None);
     }
+    let picture = sight.map(|sight| sight.picture);
+    // what a further snake is given in place of: without the list of them, which would be copied for each
+    let mut common = text.clone();
+    common.also.clear();
+    let mut nodes = first.body().len();
+    let things = text.force.len() + text.world.wall.len();
     let mut others = Vec::new();
     for (k, also) in text.also.iter().enumerate() {
         let places = also.at.as_ref().map_or(1, Vec::len);
         if others.len() + places > MOST_SNAKES {
-            let message = format!("at most {MOST_SNAKES} snakes would do");
+            let message = format!("makes more than {MOST_SNAKES} snakes, which are the most");
             return Err(SceneError::key(&format!("also {k}: at"), message));
         }
-        let own = instead(text, also);
+        let own = instead(&common, also);
+        let each = (own.force.len() + own.world.wall.len()).max(things);
+        if each.saturating_mul(others.len() + places) > MOST_FORCES {
+            let got = others.len() + places;
+            let message = format!(
+                "{got} snakes of {each} forces and walls; both multiplied must be at most {MOST_FORCES}"
+            );
+            return Err(SceneError::key(&format!("also {k}: force"), message));
+        }
         let within = |error: SceneError| match error {
             SceneError::Key { key, message } => SceneError::Key {
                 key: format!("also {k}: {key}"),
@@ -36,13 +50,19 @@ pub(super) fn company(
             },
             other => other,
         };
-        let mut shape = body::body(&own, rules, folder).map_err(within)?;
+        let mut shape = body::body(&own, rules, files).map_err(within)?;
+        nodes = nodes.saturating_add(shape.len().saturating_mul(places));
+        if nodes > MOST_IN_ALL {
+            let message =
+                format!("makes {nodes} nodes in all snakes; there must be at most {MOST_IN_ALL}");
+            return Err(SceneError::key(&format!("also {k}: at"), message));
+        }
         shape.maps = if also.material.is_none() && also.densities.is_none() {
             first.body().maps.clone()
         } else {
-            map::maps(&own, picture, folder).map_err(within)?
+            map::maps(&own, picture, files).map_err(within)?
         };
-        let start = body::start(&own, &shape, rules, folder).map_err(within)?;
+        let start = body::start(&own, &shape, rules, files).map_err(within)?;
         // the same forces, unless their weights are meant for another number of nodes or they know the curve
         let same = shape.len() == first.body().len()
             && also.force.is_none()
@@ -50,15 +70,8 @@ pub(super) fn company(
         let surroundings = if same {
             first.world().clone()
         } else {
-            let mut unsaid = Vec::new();
-            let world = world::world(
-                &own,
-                rules,
-                picture,
-                &start.x,
-                shape.topology.is_closed(),
-                &mut unsaid,
-            );
+            let closed = shape.topology.is_closed();
+            let world = world::world(&own, rules, sight, &start.x, closed);
             world.map_err(within)?.0
         };
         let mut snake =
@@ -81,9 +94,7 @@ pub(super) fn company(
                         let mut there = own.clone();
                         super::force::shift(&mut there.force, by);
                         let closed = snake.body().topology.is_closed();
-                        let mut unsaid = Vec::new();
-                        let world =
-                            world::world(&there, rules, picture, &moved.x, closed, &mut unsaid);
+                        let world = world::world(&there, rules, sight, &moved.x, closed);
                         let world = world.map_err(within)?.0;
                         snake
                             .set_world(world)

@@ -25,6 +25,10 @@ pub enum Computing {
 /// Rounding of a lazy field may take this share of the pull of an edge as high as the contrast.
 const FELT: f64 = 2e-3;
 
+/// Largest levels that are computed with in f32, whose numbers go from 1e-38 to 3e38 before they lose digits.
+const LEAST_LEVEL: f64 = 1e-12;
+const MOST_LEVEL: f64 = 1e12;
+
 /// What to compute, and the keys to refuse it by.
 pub(super) struct Wanted<'a> {
     pub computing: Computing,
@@ -66,7 +70,7 @@ pub(super) fn edge_field(
         match lazy(picture, contrast, &rule).map_err(refuse)? {
             Ok(field) => return Ok(field),
             Err(why) if wanted.computing == Computing::Lazy => {
-                return Err(SceneError::key(key, format!("{why}; \"whole\" would do")));
+                return Err(SceneError::key(key, format!("{why}; \"whole\" is needed")));
             }
             Err(_) => {}
         }
@@ -88,11 +92,18 @@ fn lazy(
         Err(error @ FieldError::TooMuch { .. }) => return Ok(Err(error.to_string())),
         Err(error) => return Err(error),
     };
+    // beyond these the squares and differences of f32 leave its range, which a constant never does
+    let largest = picture.largest_level();
+    if contrast > 0.0 && !(LEAST_LEVEL..=MOST_LEVEL).contains(&largest) {
+        return Ok(Err(format!(
+            "computes with levels from {LEAST_LEVEL:e} to {MOST_LEVEL:e}, and the largest is {largest:e}"
+        )));
+    }
     // a constant is without force in f32 too
     if contrast > 0.0 {
         let sigma = rule.smoothing.sigma();
         // of rounding, in shares of gain; then of the pull of such an edge
-        let off = 5e-7 * picture.largest_level();
+        let off = 5e-7 * largest;
         let felt = off * (sigma * sigma + 2.0 / 3.0) / (super::force::NORMAL_AT_1 * contrast);
         if felt > FELT {
             let percent = 100.0 * felt;

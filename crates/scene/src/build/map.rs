@@ -1,11 +1,11 @@
 //! Maps: factors that the picture, or another of its size, sets the parameters by.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use field::{FieldError, Grid, Map, Smoothing};
 use snake::Maps;
 
+use super::files::Files;
 use super::{number, smoothing};
 use crate::file::{AwayText, DampingText, MapText, ParameterText, SceneText, SourceText};
 use crate::{Picture, SceneError};
@@ -23,11 +23,11 @@ const REACH: f64 = 10.0;
 pub(super) fn maps(
     text: &SceneText,
     picture: Option<&Picture>,
-    folder: &Path,
+    files: &Files<'_>,
 ) -> Result<Maps, SceneError> {
     let mut made = Made {
         picture,
-        folder,
+        files,
         known: Vec::new(),
     };
     let (material, densities) = (&text.material, &text.densities);
@@ -67,7 +67,7 @@ pub(super) fn maps(
 /// What is made, and what has been made already.
 struct Made<'a> {
     picture: Option<&'a Picture>,
-    folder: &'a Path,
+    files: &'a Files<'a>,
     known: Vec<(&'a MapText, Arc<Map>)>,
 }
 
@@ -169,7 +169,7 @@ impl<'a> Made<'a> {
 
     /// A picture file of the same size: black is 0, white is 1, floats are what they are.
     fn file(&self, key: &str, file: &str) -> Result<Grid, SceneError> {
-        let map = Picture::load(&self.folder.join(file))?;
+        let map = self.files.picture(file)?;
         if let Some(picture) = self.picture
             && picture.size() != map.size()
         {

@@ -4,6 +4,7 @@ mod body;
 mod company;
 mod edge_field;
 mod ends;
+mod files;
 pub(crate) mod force;
 mod hand;
 mod map;
@@ -17,6 +18,9 @@ use std::sync::Arc;
 
 use glam::DVec2;
 use snake::{Snake, SnakeError, Turning};
+
+use files::Files;
+use force::Sight;
 
 pub use edge_field::Computing;
 pub(crate) use hand::force_now;
@@ -79,28 +83,26 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         return Err(SceneError::key("version", message));
     }
     let rules = Rules::of(&text.rules);
+    let files = &Files::of(folder);
     let plan = plan::plan(text, rules)?;
     let view = view(&text.view)?;
-    let mut body = body::body(text, rules, folder)?;
-    let start = body::start(text, &body, rules, folder)?;
+    let mut body = body::body(text, rules, files)?;
+    let start = body::start(text, &body, rules, files)?;
     let picture = text
         .picture
         .as_ref()
-        .map(|p| picture(p, folder))
+        .map(|p| picture(p, files))
         .transpose()?;
     if let Some(picture) = &picture {
         world::inside(&start, picture, rules)?;
     }
-    body.maps = map::maps(text, picture.as_ref(), folder)?;
+    body.maps = map::maps(text, picture.as_ref(), files)?;
     let mut notes = Vec::new();
-    let (world, field) = world::world(
-        text,
-        rules,
-        picture.as_ref(),
-        &start.x,
-        body.topology.is_closed(),
-        &mut notes,
-    )?;
+    notes.extend(picture.iter().flat_map(|p| p.notes().to_vec()));
+    let sight = picture.as_ref().map(Sight::of).transpose()?;
+    notes.extend(sight.as_ref().and_then(Sight::note));
+    let closed = body.topology.is_closed();
+    let (world, field) = world::world(text, rules, sight.as_ref(), &start.x, closed)?;
     let (hand, world) = hand::hand(text, world, &body, &start)?;
     let mut snake = Snake::new(body, world).map_err(|e| refused("snake", &e))?;
     ends::slide(text, &mut snake, &start, picture.as_ref())?;
@@ -110,7 +112,8 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
     if terms.is_some() {
         Turning::new(&snake).map_err(|e| SceneError::key("snake.frame", e))?;
     }
-    let company = company::company(text, rules, picture.as_ref(), &snake, folder)?;
+    let company = company::company(text, rules, sight.as_ref(), &snake, files)?;
+    drop(sight);
     Ok(Scene {
         name: name.to_owned(),
         title: text.title.clone(),
@@ -128,16 +131,17 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         plan,
         resolves: None,
         notes,
+        inputs: files::named(text, folder),
     })
 }
 
-fn picture(text: &PictureText, folder: &Path) -> Result<Picture, SceneError> {
+fn picture(text: &PictureText, files: &Files<'_>) -> Result<Picture, SceneError> {
     let invalid = match text.invalid {
         Some(InvalidText::Mask) => Invalid::Mask,
         Some(InvalidText::Refuse) | None => Invalid::Refuse,
     };
     let picture = match (&text.file, &text.shipped, &text.drawn) {
-        (Some(file), None, None) => Picture::load_with(&folder.join(file), invalid),
+        (Some(file), None, None) => Picture::load_with(&files.path(file), invalid),
         (None, Some(name), None) => Picture::shipped(name),
         (None, None, Some(drawn)) => Picture::drawn(drawn),
         (None, None, None) => Err(SceneError::key(
@@ -152,7 +156,7 @@ fn picture(text: &PictureText, folder: &Path) -> Result<Picture, SceneError> {
     match &text.mask {
         None => Ok(picture),
         Some(file) => {
-            let mask = Picture::load(&folder.join(file))?;
+            let mask = files.picture(file)?;
             let masked = picture.with_mask(&mask);
             masked.map_err(|message| SceneError::key("picture.mask", message))
         }

@@ -1,14 +1,13 @@
 //! Curves: topology, and a shape's nodes.
 
-use std::path::Path;
-
 use elastic::{ElasticError, End, Parameter, Topology};
 use glam::DVec2;
 
+use super::files::Files;
 use super::{Rules, number, points};
 use crate::file::{EndText, EndWord, OpenClosed, Rule, SceneText, ShapeText, TopologyText};
 use crate::limits::MOST_NODES;
-use crate::{Contour, SceneError, catalogue};
+use crate::{SceneError, catalogue};
 
 pub(super) fn topology(text: &TopologyText, rules: Rules) -> Topology {
     let end = |end: &EndText| match end {
@@ -43,7 +42,7 @@ pub(super) fn nodes(
     shape: &ShapeText,
     key: &str,
     rules: Rules,
-    folder: &Path,
+    files: &Files<'_>,
 ) -> Result<Vec<DVec2>, SceneError> {
     let closed = topology(&text.snake.topology, rules).is_closed();
     let parameter = match rules.spline {
@@ -90,7 +89,7 @@ pub(super) fn nodes(
             number::places(&at("nodes"), &nodes)?;
             Ok(nodes)
         }
-        ShapeText::File(file) => through(&at("file"), &Contour::load(&folder.join(file))?.points),
+        ShapeText::File(file) => through(&at("file"), &files.contour(file)?.points),
         ShapeText::Shipped(name) => through(&at("shipped"), &catalogue::contour(name)?.points),
     }
 }

@@ -32,6 +32,7 @@ pub(crate) fn smoothing(
         );
         return Err(SceneError::key(key, message));
     }
+    work(key, (width, height), WORK)?;
     let pixels = (width * height) as f64;
     // a Gaussian is cut at 8.6 σ on both sides
     let (value, taps) = match smoothing {
@@ -45,6 +46,30 @@ pub(crate) fn smoothing(
     let message =
         format!("{value} on {width}×{height} pixels takes too long; at most {most} would do");
     Err(SceneError::key(key, message))
+}
+
+/// Bytes a pixel that all stages of a force take together.
+const WORK: u64 = 100;
+
+/// Refuse work on a whole picture, of so many bytes a pixel, that there is no memory for.
+pub(super) fn work(
+    key: &str,
+    (width, height): (usize, usize),
+    bytes: u64,
+) -> Result<(), SceneError> {
+    let pixels = (width * height) as u64;
+    let refuse = |message: String| {
+        let message =
+            format!("work on all {width}×{height} pixels {message}; a smaller picture is needed");
+        Err(SceneError::key(key, message))
+    };
+    let most = MOST_WHOLE * WORK / bytes;
+    if pixels > most {
+        return refuse(format!(
+            "takes {bytes} bytes each, for which at most {most} are allowed"
+        ));
+    }
+    crate::limits::room(pixels * bytes).or_else(refuse)
 }
 
 pub(super) fn force_field(
@@ -113,20 +138,21 @@ fn usual_field(text: &SceneText) -> Option<FieldText> {
 pub(super) fn world(
     text: &SceneText,
     rules: Rules,
-    picture: Option<&Picture>,
+    sight: Option<&Sight<'_>>,
     nodes: &[DVec2],
     closed: bool,
-    notes: &mut Vec<String>,
 ) -> Result<(World, Option<Arc<ForceField>>), SceneError> {
     let mut world = World::default();
     if let Some(g) = text.world.gravity {
         world = world.with_gravity(number::place("world.gravity", g)?);
     }
-    let sight = picture.map(Sight::of).transpose()?;
-    notes.extend(sight.as_ref().and_then(Sight::note));
     let mut usual = None;
-    if let (Some(sight), Some(f)) = (&sight, usual_field(text)) {
-        let field = Arc::new(force_field(&f, rules, sight)?);
+    if let (Some(sight), Some(f)) = (sight, usual_field(text)) {
+        // one for all snakes of a scene, which have it in common
+        let field = sight.usual(|| {
+            sight.spend("field", 1)?;
+            force_field(&f, rules, sight)
+        })?;
         let sampling = match rules.sampling {
             Rule::Report => Sampling::OneAxis,
             Rule::Corrected => Sampling::Bilinear,
@@ -141,11 +167,11 @@ pub(super) fn world(
     }
     let keyed = |(i, force): (usize, &'_ ForceText)| (format!("force {i}"), force.clone());
     let keyed: Vec<(String, ForceText)> = text.force.iter().enumerate().map(keyed).collect();
-    world = force::add(world, &keyed, sight.as_ref(), nodes, closed)?;
+    world = force::add(world, &keyed, sight, nodes, closed)?;
     for (i, text) in text.world.wall.iter().enumerate() {
         world.walls.push(wall(&format!("world.wall {i}"), text)?);
     }
-    if let Some(picture) = picture {
+    if let Some(Sight { picture, .. }) = sight {
         for (point, normal, law) in borders(text.world.border, rules, picture) {
             let wall = Wall::new(point, normal, law);
             world

@@ -101,7 +101,7 @@ impl ForceText {
         let word = match word {
             Some(toml::Value::String(word)) => word,
             Some(other) => {
-                let message = format!("kind: expected a word, got {other}");
+                let message = format!("kind: expected a word, got {}", super::forms::shown(&other));
                 return Err(Error::custom(message));
             }
             None => return Err(Error::missing_field(COMMON[0])),

@@ -38,7 +38,16 @@ pub(super) fn inner<T: for<'a> Deserialize<'a>, E: serde::de::Error>(
 }
 
 fn wrong<E: serde::de::Error>(wanted: &str, given: &toml::Value) -> E {
-    E::custom(format!("expected {wanted}, got {given}"))
+    E::custom(format!("expected {wanted}, got {}", shown(given)))
+}
+
+/// A value for a message: what it is where it has parts, which may be many.
+pub(super) fn shown(given: &toml::Value) -> String {
+    match given {
+        toml::Value::Array(_) => "a list".to_owned(),
+        toml::Value::Table(_) => "a table".to_owned(),
+        other => crate::error::clip(&other.to_string()),
+    }
 }
 
 /// `{ along = [[s, value], …] }`: straight between points, `s` from 0 (first node) to 1 (last).

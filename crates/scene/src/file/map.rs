@@ -3,7 +3,7 @@
 use serde::{Deserialize, Deserializer};
 
 use super::ProfileText;
-use super::forms::inner;
+use super::forms::{inner, shown};
 
 /// A profile, and the map it is multiplied with, if there is one.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,7 +82,8 @@ impl<'de> Deserialize<'de> for SourceText {
             },
             other => {
                 let message = format!(
-                    "expected \"grey\", \"edge\", \"contrast\", \"distance\" or {{ file = … }}, got {other}"
+                    "expected \"grey\", \"edge\", \"contrast\", \"distance\" or {{ file = … }}, got {}",
+                    shown(&other)
                 );
                 return Err(serde::de::Error::custom(message));
             }

@@ -2,6 +2,7 @@
 
 mod html;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use field::{EdgeForce, ForceField, Grid, Region, RegionScratch, Smoothing};
@@ -36,6 +37,53 @@ impl Fields {
             .filter_map(|kind| ForceChoice::parse(kind.name).ok())
             .filter(|choice| choice.is_field() || choice.is_region())
             .collect()
+    }
+
+    /// Every file that [`Fields::write`] may write into `folder`.
+    #[must_use]
+    pub fn files(&self, folder: &Path) -> Vec<PathBuf> {
+        let mut names = vec!["0-picture.png".to_owned(), "index.html".to_owned()];
+        let force = |names: &mut Vec<String>, name: &str| {
+            for of in ["x", "y", "directions", "arrows", "magnitude", "potential"] {
+                names.push(format!("{name}-{of}.png"));
+            }
+            for rest in ["-potential.npy", ".npy", ".tiff"] {
+                names.push(format!("{name}{rest}"));
+            }
+        };
+        if self.stages {
+            let stages = [
+                "1-smoothed",
+                "2-gradient-x",
+                "3-gradient-y",
+                "4-edge-strength",
+            ];
+            names.extend(stages.map(|stage| format!("{stage}.png")));
+            force(&mut names, "5-force");
+            force(&mut names, "6-report-force");
+        }
+        for (name, choice) in self.called().iter().zip(&self.kinds) {
+            if choice.is_region() {
+                names.extend(["-push.png", ".npy", ".tiff"].map(|rest| format!("{name}{rest}")));
+            } else {
+                force(&mut names, name);
+            }
+        }
+        names.into_iter().map(|name| folder.join(name)).collect()
+    }
+
+    /// What the files of each kind are called: its word, numbered where it is given again.
+    fn called(&self) -> Vec<String> {
+        let mut taken = BTreeMap::new();
+        let name = |choice: &ForceChoice| {
+            let times = taken.entry(choice.kind()).or_insert(0);
+            *times += 1;
+            match *times {
+                1 => choice.kind().to_owned(),
+                again => format!("{}-{again}", choice.kind()),
+            }
+        };
+        self.kinds.iter().map(name).collect()
     }
 
     /// Write everything into `folder`: pictures (`NAME.png`), numbers (`NAME.npy`, `NAME.tiff`), and a page with
@@ -95,14 +143,7 @@ impl Fields {
         if self.stages {
             sheet.stages(smoothing)?;
         }
-        let mut taken: Vec<String> = Vec::new();
-        for choice in &self.kinds {
-            let again = taken.iter().filter(|name| *name == choice.kind()).count();
-            taken.push(choice.kind().to_owned());
-            let name = match again {
-                0 => choice.kind().to_owned(),
-                again => format!("{}-{}", choice.kind(), again + 1),
-            };
+        for (name, choice) in self.called().into_iter().zip(&self.kinds) {
             let known = FORCES.iter().find(|kind| kind.name == choice.kind());
             let (summary, energy) = known.map_or(("", ""), |kind| (kind.summary, kind.energy));
             let note = format!("{summary}; energy: {energy}");

@@ -1,17 +1,22 @@
 //! Pictures: read from files, or drawn from numbers.
 //!
 //! Inside, a picture is grey *levels* from 0 (black) to 255 (white), whatever the file held: eight
-//! bits as they are, sixteen divided by 257, floats (0 … 1) times 255. So a force has the same size
+//! bits as they are, sixteen divided by 257 (with a sign or without), floats (0 … 1) times 255. So a force has the same size
 //! for the same picture at any depth, and the report's parameters mean what they meant. Colour
 //! becomes grey by `0.299 R + 0.587 G + 0.114 B`, not rounded; the colors are kept for forces that ask
-//! for them. Transparency is ignored. Some pixels may not count: those a mask says, those that are no numbers.
+//! for them. A picture that says how it is to be looked at (EXIF, TIFF tag 274) is turned upright. Transparency is ignored. Some pixels may not count: those a mask says, those that are no numbers.
 
 mod decode;
 mod drawn;
+mod jpeg;
 mod pixels;
+mod png;
+mod pnm;
+mod source;
+mod tiff_file;
 
 use std::path::Path;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use field::{EdgeForce, FieldError, ForceField, Grid, MaskedImage};
 use image::RgbImage;
@@ -33,10 +38,12 @@ pub struct Picture {
     display: OnceLock<RgbImage>,
     /// Whether its colors are more than grey.
     color: bool,
-    /// Colors of more than eight bits; those of eight bits are what is displayed.
-    deep: Option<Arc<Vec<[f32; 3]>>>,
+    /// Whether its levels are of more than eight bits, of any range, and so are stretched to be seen.
+    deep: bool,
     /// Which pixels count; all if none.
     valid: Option<Array2<bool>>,
+    /// What people should know of it.
+    notes: Vec<String>,
 }
 
 /// What becomes of pixels that are no finite numbers.
@@ -59,12 +66,13 @@ const SHIPPED: [(&str, &[u8]); 2] = [
 ];
 
 impl Picture {
-    /// Read a picture file: PNG, JPEG, TIFF, PGM/PPM; grey or colour; 8 bit, 16 bit or float.
+    /// Read a picture file, or standard input for `-`: PNG, JPEG, TIFF, PGM/PPM; grey or colour; 8 bit, 16 bit or float.
+    /// No more is read than the picture takes.
     ///
     /// # Errors
     ///
-    /// A file that cannot be opened, is empty or truncated, is no picture of a known format, has
-    /// no pixel or too many, or holds numbers that are not finite.
+    /// A file that cannot be opened, is empty or has been cut, is no picture of a known format, has
+    /// no pixel, more than its bytes can hold or than there is memory for, or holds numbers that are not finite.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         Self::load_with(path, Invalid::Refuse)
     }
@@ -75,7 +83,8 @@ impl Picture {
     ///
     /// As [`Picture::load`]; not one pixel that is a number.
     pub fn load_with(path: &Path, invalid: Invalid) -> Result<Self, SceneError> {
-        decode::load(path, invalid).map_err(|message| SceneError::file(path, message))
+        decode::load(path, invalid)
+            .map_err(|message| SceneError::file(&crate::read::called(path), message))
     }
 
     /// A picture that comes with the program.
@@ -85,8 +94,10 @@ impl Picture {
     /// A name that none has; the message has the nearest one.
     pub fn shipped(name: &str) -> Result<Self, SceneError> {
         let Some((_, bytes)) = SHIPPED.iter().find(|(known, _)| *known == name) else {
-            let nearest = crate::error::nearest(name, SHIPPED.iter().map(|(known, _)| *known));
-            let message = format!("no shipped picture \"{name}\"; did you mean \"{nearest}\"?");
+            let known: Vec<&str> = SHIPPED.iter().map(|(known, _)| *known).collect();
+            let meant = crate::error::meant(name, known.iter().copied());
+            let (name, known) = (crate::error::clip(name), known.join(", "));
+            let message = format!("no shipped picture \"{name}\"{meant} (known: {known})");
             return Err(SceneError::key("picture.shipped", message));
         };
         Self::decode(bytes).map_err(|message| SceneError::key("picture.shipped", message))
@@ -119,6 +130,15 @@ impl Picture {
         picture
     }
 
+    /// A picture of these pixels.
+    fn of_pixels(pixels: Pixels) -> Self {
+        let size = pixels.size().unwrap_or_default();
+        let mut picture = Self::of(size, pixels);
+        picture.color = picture.pixels.has_color();
+        picture.deep = !picture.pixels.is_shallow();
+        picture
+    }
+
     /// A grey picture of these pixels.
     const fn of(size: (usize, usize), pixels: Pixels) -> Self {
         Self {
@@ -127,8 +147,9 @@ impl Picture {
             levels: OnceLock::new(),
             display: OnceLock::new(),
             color: false,
-            deep: None,
+            deep: false,
             valid: None,
+            notes: Vec::new(),
         }
     }
 
@@ -140,22 +161,53 @@ impl Picture {
         self.levels.get_or_init(levels)
     }
 
-    /// The picture as a person sees it.
+    /// The picture as a person sees it: eight bits as they are; deeper ones from their 2nd to their 98th percentile.
     #[must_use]
     pub fn display(&self) -> &RgbImage {
         if let Pixels::Colors(colors) = &self.pixels {
             return colors;
         }
-        self.display.get_or_init(|| {
-            let (width, height) = self.size;
-            let shown = self.pixels.display();
-            shown.unwrap_or_else(|| {
-                RgbImage::from_fn(as_u32(width), as_u32(height), |x, y| {
-                    let level = crate::paint::byte(self.levels()[[y as usize, x as usize]]);
-                    image::Rgb([level; 3])
-                })
+        self.display.get_or_init(|| self.shown())
+    }
+
+    /// [`Picture::display`], made anew and not kept.
+    pub(crate) fn shown(&self) -> RgbImage {
+        if let Some(display) = self.display.get() {
+            return display.clone();
+        }
+        let (width, height) = self.size;
+        let (low, high) = self.seen();
+        let shown = if self.deep {
+            self.pixels.stretched(low, high)
+        } else {
+            self.pixels.display()
+        };
+        shown.unwrap_or_else(|| {
+            RgbImage::from_fn(as_u32(width), as_u32(height), |x, y| {
+                let level = self.levels()[[y as usize, x as usize]];
+                let shown = if self.deep {
+                    255.0 * ((level - low) / (high - low))
+                } else {
+                    level
+                };
+                image::Rgb([crate::paint::byte(shown); 3])
             })
         })
+    }
+
+    /// The levels that are shown black and white.
+    fn seen(&self) -> (f64, f64) {
+        if !self.deep {
+            return (0.0, 255.0);
+        }
+        let [least, low, high, largest] = self.limits();
+        if high > low {
+            (low, high)
+        } else if largest > least {
+            (least, largest)
+        } else {
+            (0.0, 255.0)
+        }
     }
 
     /// The same picture of which only the pixels count that are not black in `mask`.
@@ -167,7 +219,7 @@ impl Picture {
         if mask.size() != self.size() {
             let ((a, b), (width, height)) = (mask.size(), self.size());
             return Err(format!(
-                "the mask has {a}×{b} pixels and the picture {width}×{height}; as many would do"
+                "the mask has {a}×{b} pixels and the picture {width}×{height}; it must have as many"
             ));
         }
         let mut valid = mask.levels().mapv(|level| level > 0.0);
@@ -175,7 +227,7 @@ impl Picture {
             valid.zip_mut_with(before, |now, &before| *now &= before);
         }
         if !valid.iter().any(|&ok| ok) {
-            return Err("leaves no pixel; one that is not black would do".to_owned());
+            return Err("leaves no pixel; one at least must not be black".to_owned());
         }
         self.valid = Some(valid);
         Ok(self)
@@ -199,14 +251,21 @@ impl Picture {
         if !self.color {
             return vec![self.levels().clone()];
         }
-        let (width, height) = self.size();
-        let channel = |c: usize| {
-            Grid::from_shape_fn((height, width), |(y, x)| match &self.deep {
-                Some(colors) => f64::from(colors[y * width + x][c]),
-                None => f64::from(self.display().get_pixel(as_u32(x), as_u32(y)).0[c]),
-            })
-        };
-        (0..3).map(channel).collect()
+        (0..3).filter_map(|c| self.pixels.channel(c)).collect()
+    }
+
+    /// Whether it is the same everywhere, in every channel, over the pixels that count.
+    pub(crate) fn is_constant(&self) -> bool {
+        if self.valid.is_none() && (self.color || self.levels.get().is_none()) {
+            return self.pixels.is_constant();
+        }
+        !self.channels().iter().any(|c| self.contrast(c) > 0.0)
+    }
+
+    /// What people should know of it: how it was stored, what of the file was taken.
+    #[must_use]
+    pub fn notes(&self) -> &[String] {
+        &self.notes
     }
 
     /// A grid of this picture's size with the word on which of its pixels count.
@@ -237,38 +296,48 @@ impl Picture {
         lazy.map(Some)
     }
 
-    /// The largest level there may be.
+    /// The largest level there may be, either way.
     pub(crate) fn largest_level(&self) -> f64 {
-        match &self.pixels {
-            Pixels::Levels => self.levels().iter().fold(0.0, |most, v| most.max(v.abs())),
-            _ => 255.0,
-        }
+        let beside = || {
+            self.levels()
+                .iter()
+                .fold(0.0, |most: f64, v| most.max(v.abs()))
+        };
+        self.pixels.largest().unwrap_or_else(beside)
     }
 
-    /// Whether its pixels were finite and within bounds before anyone looked: those of 8 and 16 bits are.
+    /// Whether its pixels were found finite and within bounds when they were read.
     pub(crate) const fn is_tame(&self) -> bool {
         !matches!(self.pixels, Pixels::Levels)
     }
 
     /// [`Picture::contrast`] of its levels.
     pub(crate) fn grey_contrast(&self) -> f64 {
+        pixels::spread_of(self.limits())
+    }
+
+    /// The least level, the 2nd and the 98th percentile, and the largest.
+    fn limits(&self) -> [f64; 4] {
         match (&self.valid, self.levels.get()) {
-            (None, None) => pixels::spread(&mut self.pixels.ordered()),
-            _ => self.contrast(self.levels()),
+            (None, None) => self.pixels.limits().unwrap_or_default(),
+            (None, Some(levels)) => pixels::limits_of(|| levels.iter().copied()),
+            (Some(valid), _) => pixels::limits_of(|| {
+                let both = self.levels().iter().zip(valid);
+                both.filter(|(_, ok)| **ok).map(|(&v, _)| v)
+            }),
         }
     }
 
     /// Spread of a grid of this picture's size: from the 2nd to the 98th percentile of what counts, or where
     /// these are one, from the least to the largest. 0 for a constant.
     pub(crate) fn contrast(&self, grid: &Grid) -> f64 {
-        let mut levels: Vec<f64> = match &self.valid {
-            None => grid.iter().copied().collect(),
-            Some(valid) => {
+        match &self.valid {
+            None => pixels::spread(|| grid.iter().copied()),
+            Some(valid) => pixels::spread(|| {
                 let both = grid.iter().zip(valid);
-                both.filter(|(_, ok)| **ok).map(|(&v, _)| v).collect()
-            }
-        };
-        pixels::spread(&mut pixels::Ordered::Levels(&mut levels))
+                both.filter(|(_, ok)| **ok).map(|(&v, _)| v)
+            }),
+        }
     }
 
     /// Width and height.

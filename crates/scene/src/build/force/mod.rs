@@ -7,23 +7,25 @@
 mod curve;
 mod reach;
 mod region;
+mod sight;
 mod strength;
 
-use std::cell::OnceCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use elastic::Profile;
-use field::{EdgeForce, FieldError, ForceField, Grid, MaskedImage, Region, Smoothing};
+use field::{FieldError, ForceField, Grid, Smoothing};
 use glam::DVec2;
-use snake::{Acting, Gravity, ImageForce, Pressure, RegionForce, Sampling, Turned, World};
+use snake::{
+    Acting, Crowd, Energies, Gravity, ImageForce, Pressure, RegionForce, Sampling, Turned, World,
+};
 
 use super::body::{profile, straight};
-use super::edge_field::{Computing, Wanted, edge_field};
 use super::{number, smoothing};
 use crate::file::{EdgeText, ForceText, KindText, PolarityText};
-use crate::limits::USUALLY_WHOLE;
 use crate::{Picture, SceneError};
+use sight::Seen;
+pub(crate) use sight::Sight;
 
 /// Force of strength 1: a gain of 6 on 120 levels, smoothed with σ² = 10, at its strongest, one σ from the
 /// edge, where the normal density is 0.242. M L T⁻².
@@ -38,120 +40,6 @@ pub(crate) struct Made {
     pub field: ForceField,
     /// The energy of a point of the curve, per unit of its length, at pixel centers; None if there is none.
     pub energy: Option<Grid>,
-}
-
-/// A picture as the kinds of force look at it.
-pub(crate) struct Sight<'a> {
-    pub picture: &'a Picture,
-    grey: OnceCell<MaskedImage>,
-    contrast: f64,
-    computing: Computing,
-    whole_up_to: u64,
-}
-
-impl<'a> Sight<'a> {
-    pub(crate) fn of(picture: &'a Picture) -> Result<Self, SceneError> {
-        let sight = Self {
-            picture,
-            grey: OnceCell::new(),
-            contrast: picture.grey_contrast(),
-            computing: Computing::Auto,
-            whole_up_to: USUALLY_WHOLE,
-        };
-        if !picture.is_tame() {
-            sight.grey("picture")?; // pixels that will not do are found first
-        }
-        Ok(sight)
-    }
-
-    /// The same for a single fit.
-    pub(crate) const fn for_fit(mut self, computing: Computing) -> Self {
-        self.computing = computing;
-        self.whole_up_to = 0;
-        self
-    }
-
-    /// Spread of the levels that count, for a gain: a constant exerts no force whatever its gain.
-    pub(crate) fn contrast(&self) -> f64 {
-        above_nothing(self.contrast)
-    }
-
-    /// The same, 0 for a constant.
-    pub(crate) const fn true_contrast(&self) -> f64 {
-        self.contrast
-    }
-
-    /// The grey levels with the word on which of them count.
-    fn grey(&self, key: &str) -> Result<&MaskedImage, SceneError> {
-        if let Some(grey) = self.grey.get() {
-            return Ok(grey);
-        }
-        let refuse = |e: FieldError| SceneError::key(key, e);
-        let grey = self.picture.masked(self.picture.levels()).map_err(refuse)?;
-        Ok(self.grey.get_or_init(|| grey))
-    }
-
-    /// The corrected edge force of the grey levels; refused by the keys of the smoothing and of the choice.
-    pub(crate) fn edge_field(
-        &self,
-        rule: EdgeForce,
-        keys: [&str; 2],
-    ) -> Result<ForceField, SceneError> {
-        let wanted = Wanted {
-            computing: self.computing,
-            whole_up_to: self.whole_up_to,
-            keys,
-        };
-        edge_field(self.picture, self.contrast, rule, &wanted)
-    }
-
-    /// What to say of a picture without any contrast.
-    pub(crate) fn note(&self) -> Option<String> {
-        let picture = self.picture;
-        if self.contrast > 0.0 {
-            None
-        } else if picture.channels().iter().any(|c| picture.contrast(c) > 0.0) {
-            Some(
-                "the picture has one grey everywhere: only forces in color see anything".to_owned(),
-            )
-        } else {
-            Some("the picture is the same everywhere: it exerts no force".to_owned())
-        }
-    }
-
-    /// The regions of a kind; None for a kind that has none.
-    pub(crate) fn region(
-        &self,
-        key: &str,
-        kind: &KindText,
-    ) -> Result<Option<Arc<dyn Region>>, SceneError> {
-        let at = At { key, sight: self };
-        let region = match kind {
-            KindText::Regions(text) => at.regions(text),
-            KindText::LocalRegions(text) => at.local_regions(text),
-            KindText::Likelihood(text) => at.likelihood(text),
-            KindText::Texture(text) => at.texture(text),
-            _ => return Ok(None),
-        };
-        region.map(Some)
-    }
-
-    /// The field of a kind; None for a kind that is none: it asks for the curve, or for no picture.
-    pub(crate) fn field(&self, key: &str, kind: &KindText) -> Result<Option<Made>, SceneError> {
-        let at = At { key, sight: self };
-        let made = match kind {
-            KindText::Edge(text) if either(text) => at.edge(text),
-            KindText::ColorEdge(text) => at.color_edge(text),
-            KindText::Scales(text) => at.scales(text),
-            KindText::Line(text) => at.line(text),
-            KindText::Termination(text) => at.termination(text),
-            KindText::Distance(text) => at.distance(text),
-            KindText::Gvf(text) => at.gvf(text),
-            KindText::Vfc(text) => at.vfc(text),
-            _ => return Ok(None),
-        };
-        made.map(Some)
-    }
 }
 
 /// Whether a kind compares what is inside with what is outside.
@@ -249,10 +137,6 @@ impl<'a> Around<'a> {
         }
         Ok(match kind {
             KindText::Edge(text) if !either(text) => Acting::new(self.seen()?.signed_edge(text)?),
-            KindText::Edge(text) => {
-                let field = Arc::new(self.seen()?.felt_edge(text)?);
-                Acting::new(ImageForce::new(field, Sampling::Bilinear))
-            }
             KindText::Pressure(text) => Acting::new(self.pressure(text)?),
             KindText::Gas(text) => {
                 let (k, area) = self.volume(text)?;
@@ -270,16 +154,27 @@ impl<'a> Around<'a> {
                 Acting::new(Gravity(number::place(&key, text.acceleration)?))
             }
             _ => {
-                let sight = self.seen()?.sight;
-                if let Some(region) = sight.region(self.key, kind)? {
-                    return Ok(Acting::new(RegionForce::new(region)));
-                }
-                let made = sight.field(self.key, kind)?;
-                let Some(made) = made else {
-                    let message = format!("{} is no field", kind.word());
-                    return Err(SceneError::key(&format!("{}: kind", self.key), message));
+                let at = self.seen()?;
+                let made = || {
+                    if let KindText::Edge(text) = kind {
+                        return Ok(Some(Seen::Field(Arc::new(at.felt_edge(text)?))));
+                    }
+                    if let Some(region) = at.sight.region(self.key, kind)? {
+                        return Ok(Some(Seen::Region(region)));
+                    }
+                    let made = at.sight.field(self.key, kind)?;
+                    Ok(made.map(|made| Seen::Field(Arc::new(made.field))))
                 };
-                Acting::new(ImageForce::new(Arc::new(made.field), Sampling::Bilinear))
+                match at.sight.seen(kind, made)? {
+                    Some(Seen::Region(region)) => Acting::new(RegionForce::new(region)),
+                    Some(Seen::Field(field)) => {
+                        Acting::new(ImageForce::new(field, Sampling::Bilinear))
+                    }
+                    None => {
+                        let message = format!("{} is no field", kind.word());
+                        return Err(SceneError::key(&format!("{}: kind", self.key), message));
+                    }
+                }
             }
         })
     }
@@ -302,6 +197,17 @@ const fn asks_inside(kind: &KindText) -> bool {
             | KindText::Gas(_)
             | KindText::Area(_)
     )
+}
+
+/// How many fields, of two numbers a pixel, a kind keeps.
+fn grids(kind: &KindText) -> usize {
+    match kind {
+        KindText::CoarseToFine(scales) => scales.sigmas.as_ref().map_or(4, Vec::len),
+        // a number for each stripe and channel
+        KindText::Texture(_) => 8,
+        KindText::Regions(_) | KindText::LocalRegions(_) | KindText::Likelihood(_) => 2,
+        _ => 1,
+    }
 }
 
 /// The force of a `[[force]]`, or of a `--force`, with its weight and schedule; one for each scale of a schedule of scales.
@@ -441,7 +347,10 @@ pub(crate) fn add(
     nodes: &[DVec2],
     closed: bool,
 ) -> Result<World, SceneError> {
-    let mut taken: BTreeSet<String> = TAKEN.into_iter().map(str::to_owned).collect();
+    if let Some(sight) = sight {
+        sight.foresee(keyed)?;
+    }
+    let mut taken = columns();
     taken.extend(world.names().map(str::to_owned));
     for (key, text) in keyed {
         if let Some(name) = &text.common.name {
@@ -449,6 +358,8 @@ pub(crate) fn add(
             taken.insert(name.clone());
         }
     }
+    // up to which number the names of a word are taken
+    let mut last = BTreeMap::new();
     for (key, text) in keyed {
         let around = Around {
             key,
@@ -460,8 +371,8 @@ pub(crate) fn add(
         for (i, acting) in list.into_iter().enumerate() {
             let name = match &text.common.name {
                 Some(name) if i == 0 => name.clone(),
-                Some(name) => free(name, &taken),
-                None => free(text.kind.word(), &taken),
+                Some(name) => free(name, &taken, &mut last),
+                None => free(text.kind.word(), &taken, &mut last),
             };
             taken.insert(name.clone());
             world = world.with_acting(acting.named(&name));
@@ -470,57 +381,41 @@ pub(crate) fn add(
     Ok(world)
 }
 
-/// Columns of a record that no force may be called.
-const TAKEN: [&str; 24] = [
-    "kinetic",
-    "tether",
-    "tension",
-    "rigidity",
-    "higher",
-    "wall",
-    "damping",
-    "contact",
-    "frame",
-    "scheme",
-    "parameters",
-    "hand",
-    "total",
-    "step",
-    "t",
-    "node",
-    "x",
-    "y",
-    "vx",
-    "vy",
-    "image",
-    "energy",
-    "v",
-    "outcome",
-];
+/// Columns and keys of a record that no force may be called: what [`Energies`] calls its terms, of a snake or a crowd,
+/// and what else stands in a line.
+fn columns() -> BTreeSet<String> {
+    let terms = Energies::names_with(true, Crowd::FORCES.into_iter());
+    let rest = crate::record::COLUMNS.into_iter().map(str::to_owned);
+    terms.into_iter().chain(rest).collect()
+}
 
 fn check_name(key: &str, name: &str, taken: &BTreeSet<String>) -> Result<(), SceneError> {
     let fine = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
     if name.is_empty() || name.len() > 40 || !name.chars().all(fine) {
         let message = format!(
-            "up to 40 letters, digits, - and _ would do, got \"{}\"",
+            "must be up to 40 letters, digits, - and _, got \"{}\"",
             crate::error::clip(name)
         );
         return Err(SceneError::key(key, message));
     }
     if taken.contains(name) {
-        let message = format!("\"{name}\" is taken; another would do");
+        let message = format!("\"{name}\" is taken; another name is needed");
         return Err(SceneError::key(key, message));
     }
     Ok(())
 }
 
-/// `word`, or `word-2` and so on where that is taken.
-fn free(word: &str, taken: &BTreeSet<String>) -> String {
-    let mut name = word.to_owned();
-    let mut i = 2;
-    while taken.contains(&name) {
-        name = format!("{word}-{i}");
-        i += 1;
+/// `word`, or `word-2` and so on where that is taken; `last` is where the search for each word goes on.
+fn free(word: &str, taken: &BTreeSet<String>, last: &mut BTreeMap<String, usize>) -> String {
+    if !taken.contains(word) {
+        return word.to_owned();
     }
-    name
+    let i = last.entry(word.to_owned()).or_insert(1);
+    loop {
+        *i += 1;
+        let name = format!("{word}-{i}");
+        if !taken.contains(&name) {
+            return name;
+        }
+    }
 }

@@ -3,6 +3,7 @@
 use field::{Canny, Falloff, FlowRule, ForceField, Grid, Smoothing, VectorFlow};
 use glam::DVec2;
 
+use super::super::world::work;
 use super::{At, Made, NORMAL_AT_0, number};
 use crate::SceneError;
 use crate::file::{DistanceText, GvfText, VfcText};
@@ -88,6 +89,8 @@ impl At<'_> {
     }
 
     pub(super) fn gvf(&self, text: &GvfText) -> Result<Made, SceneError> {
+        // three iterates of two numbers, their coefficients and the edges beside the stages of those
+        work(self.key, self.sight.picture.size(), 165)?;
         let sigma = self.sigma(text.sigma, 2.0)?;
         let rule = match (text.smoothness, text.spread) {
             (Some(_), Some(_)) => {
