@@ -179,7 +179,7 @@ impl Snake {
         }
     }
 
-    /// Have found the same as `other` in maps that are not looked at all the time.
+    /// Takes over what `other` found in maps that are looked up at intervals.
     pub(crate) fn keep_up_with(&mut self, other: &Self) {
         if self.body.maps.every > 0.0 && other.body.maps.every > 0.0 {
             self.look = other.look;
