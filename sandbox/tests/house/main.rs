@@ -1,4 +1,4 @@
-//! The house rules that matter are code: floors, doors, sizes, ledgers.
+//! The house rules that matter are code: floors, doors, sizes, ledgers, licences.
 
 #![allow(
     clippy::unwrap_used,
@@ -6,8 +6,12 @@
     reason = "a test may stop the process"
 )]
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+mod ledgers;
+mod licences;
+mod sizes;
+mod words;
 
 /// Own packages and their floor: an arrow may only point to a lower one.
 const FLOORS: [(&str, u32); 13] = [
@@ -36,8 +40,8 @@ const DOORS: [(&str, &[&str]); 22] = [
     ("bytemuck", &["lanes"]),
     ("rustfft", &["banded"]),
     ("serde", &["scene"]),
-    ("serde_json", &["scene"]),
-    ("toml", &["scene", "sandbox: test"]), // this file reads manifests
+    ("serde_json", &["scene", "sandbox: test"]), // what cargo metadata says
+    ("toml", &["scene", "sandbox: test"]),       // this file reads manifests
     ("image", &["scene"]),
     ("tiff", &["scene"]),
     ("strsim", &["scene"]),
@@ -182,218 +186,12 @@ fn sources() -> Vec<(PathBuf, String)> {
 }
 
 #[test]
-fn no_file_is_longer_than_six_hundred_lines() {
-    let long: Vec<String> = sources()
-        .into_iter()
-        .map(|(path, text)| (path, text.lines().count()))
-        .filter(|(_, lines)| *lines > 600)
-        .map(|(path, lines)| format!("{} has {lines} lines", path.display()))
-        .collect();
-    assert!(long.is_empty(), "{}", long.join("\n"));
-}
-
-#[test]
-fn no_source_multiplies_and_adds_in_one_rounding_or_skips_a_test() {
-    // put together here so that this file does not find itself
-    let banned = ["mul", "ignore", "should", "todo"].map(|word| match word {
-        "mul" => format!(".{word}_add("),
-        "ignore" => format!("#[{word}"),
-        "should" => format!("#[{word}_panic"),
-        _ => format!("{word}!("),
-    });
-    for (path, text) in sources() {
-        for (number, line) in text.lines().enumerate() {
-            let code = line.split("//").next().unwrap_or_default();
-            for word in &banned {
-                assert!(
-                    !code.contains(word.as_str()),
-                    "{}:{}: {word}",
-                    path.display(),
-                    number + 1
-                );
-            }
-        }
-    }
-}
-
-/// Which source text defines what: for each package, all its sources in one.
-fn by_package() -> BTreeMap<String, String> {
-    let mut out = BTreeMap::new();
-    for (name, folder) in packages() {
-        let base = folder.canonicalize().unwrap();
-        let all: Vec<String> = sources()
-            .into_iter()
-            .filter(|(path, _)| path.canonicalize().unwrap().starts_with(&base))
-            .map(|(_, text)| text)
-            .collect();
-        out.insert(name, all.join("\n"));
-    }
-    out
-}
-
-/// Whether a text defines an item of that name.
-fn defines(text: &str, name: &str) -> bool {
-    let whole = |rest: &str| {
-        let after = rest.strip_prefix(name);
-        after.is_some_and(|after| !after.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
-    };
-    let words = [
-        "fn ",
-        "struct ",
-        "enum ",
-        "trait ",
-        "const ",
-        "static ",
-        "type ",
-        "mod ",
-        "macro_rules! ",
-    ];
-    let item = words.iter().any(|word| {
-        text.match_indices(word)
-            .any(|(at, _)| whole(&text[at + word.len()..]))
-    });
-    // a variant of an enum or a field of a struct stands at the start of its line
-    let member = || {
-        text.lines().any(|line| {
-            let line = line.trim_start();
-            let line = line.strip_prefix("pub ").unwrap_or(line);
-            whole(line) && line[name.len()..].starts_with([',', '(', ' ', ':', '=']) || line == name
-        })
-    };
-    item || member()
-}
-
-/// The code spans of a Markdown cell.
-fn spans(cell: &str) -> Vec<&str> {
-    cell.split('`')
-        .skip(1)
-        .step_by(2)
-        .filter(|span| !span.is_empty())
-        .collect()
-}
-
-/// The tables of a ledger as rows of cells. A row is a line between bars; the head and its rule are left out.
-fn rows(text: &str) -> Vec<Vec<String>> {
-    let mut out = Vec::new();
-    let mut before_rule = true;
-    for line in text.lines() {
-        let line = line.trim();
-        if !line.starts_with('|') {
-            before_rule = true;
-            continue;
-        }
-        if line.chars().all(|c| matches!(c, '|' | '-' | ':' | ' ')) {
-            before_rule = false;
-            continue;
-        }
-        if !before_rule {
-            let inner = line.trim_matches('|');
-            let cells = inner.replace("\\|", "\u{1}");
-            out.push(
-                cells
-                    .split('|')
-                    .map(|cell| cell.trim().replace('\u{1}', "|"))
-                    .collect(),
-            );
-        }
-    }
-    out
-}
-
-/// Everything in a ledger that is named and not there. An item is a path `crate::item` (also
-/// `crate::Type::member`); a test is a plain name of small letters with an underscore.
-fn missing_in(ledger: &str, packages: &BTreeMap<String, String>) -> Vec<String> {
-    let mut out = Vec::new();
-    for row in rows(ledger) {
-        let label = row.first().cloned().unwrap_or_default();
-        for span in row.iter().flat_map(|cell| spans(cell)) {
-            if let Some((package, rest)) = span.split_once("::") {
-                let item = rest
-                    .trim_end_matches("()")
-                    .rsplit("::")
-                    .next()
-                    .unwrap_or_default();
-                match packages.get(package) {
-                    None => out.push(format!("{label}: {span}: no package {package}")),
-                    Some(text) if !defines(text, item) => {
-                        out.push(format!("{label}: {span}: not found in {package}"));
-                    }
-                    Some(_) => {}
-                }
-            } else if is_test_name(span) {
-                let text = format!("fn {span}(");
-                let closed = format!("fn {span} ");
-                let there = packages
-                    .values()
-                    .any(|all| all.contains(&text) || all.contains(&closed));
-                if !there {
-                    out.push(format!("{label}: no test {span}"));
-                }
-            }
-        }
-    }
-    out
-}
-
-/// A test's name is a sentence: small letters, at least two underscores.
-fn is_test_name(span: &str) -> bool {
-    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-    span.chars().all(plain) && span.matches('_').count() >= 2
-}
-
-fn check_ledger(name: &str) {
-    let path = root().join("docs").join(name);
-    let Ok(text) = std::fs::read_to_string(&path) else {
-        return;
-    }; // not written yet
-    let missing = missing_in(&text, &by_package());
-    assert!(missing.is_empty(), "docs/{name}:\n{}", missing.join("\n"));
-    let named = rows(&text)
-        .iter()
-        .flatten()
-        .flat_map(|cell| spans(cell))
-        .count();
-    assert!(named > 0, "docs/{name} points to nothing");
-}
-
-#[test]
-fn every_row_of_the_equation_ledger_points_to_what_exists() {
-    check_ledger("equations.md");
-}
-
-#[test]
-fn every_row_of_the_errata_ledger_points_to_what_exists() {
-    check_ledger("errata.md");
-}
-
-#[test]
-fn a_ledger_that_points_nowhere_is_found_out() {
-    let sources = "/// Doc.\npub fn force() {}\npub enum End {\n    Free,\n}\n#[test]\nfn it_is_so_and_so() {}";
-    let packages = BTreeMap::from([("elastic".to_owned(), sources.to_owned())]);
-    let check = |row: &str| {
-        missing_in(
-            &format!("| eq | item | test |\n| --- | --- | --- |\n{row}\n"),
-            &packages,
-        )
-    };
-    assert!(check("| 3.2 | `elastic::force` | `it_is_so_and_so` |").is_empty());
-    assert!(check("| 3.2 | `elastic::End::Free` | a word |").is_empty());
-    assert_eq!(check("| 3.2 | `elastic::forc` | |").len(), 1);
-    assert_eq!(check("| 3.2 | `elastic::forces` | |").len(), 1);
-    assert_eq!(check("| 3.2 | `plastic::force` | |").len(), 1);
-    assert_eq!(
-        check("| 3.2 | `elastic::force` | `it_is_not_so` |"),
-        ["3.2: no test it_is_not_so"]
-    );
-}
-
-#[test]
 fn every_experiment_has_its_expected_numbers() {
     for experiment in sandbox::EXPERIMENTS {
         let file = sandbox::expected_folder().join(format!("{}.csv", experiment.id));
         assert!(
             file.exists(),
-            "{} is missing; REGENERATE=1 writes it",
+            "{} is missing; figures --accept writes it",
             file.display()
         );
     }
