@@ -1,7 +1,7 @@
 //! How far a curve has turned: the rotation that brings its rest shape nearest to it.
 //!
-//! In the plane the polar decomposition has a closed form, one arc tangent. Stretching it measures not: the size
-//! of what is turned drops out.
+//! In the plane the polar decomposition has a closed form, one arc tangent. It does not
+//! measure stretching: the size of the curve drops out.
 
 use crate::Profile;
 use glam::DVec2;

@@ -1,7 +1,7 @@
 //! What a deformation costs: the elastic densities (report §3.4.1, and §2.4 for those above the second order).
 //!
 //! The densities are per arc length, so that a curve keeps its behaviour when it gets more nodes. They
-//! cannot depend on the deformation: plasticity is for a later day.
+//! cannot depend on the deformation. Plastic flow changes the rest shape, not the material (`snake::Plastic`).
 
 use crate::kernel::NAMES;
 use crate::{Bound, ElasticError, Kernel, Profile};

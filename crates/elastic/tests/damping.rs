@@ -67,6 +67,23 @@ fn eigenvalues_lie_between_the_local_stiffness_and_gershgorins_bound() {
 }
 
 #[test]
+fn an_anchored_string_has_the_eigenvalues_of_its_formula() {
+    let (n, h, tether, tension) = (17, 0.5, 0.3, 2.0);
+    let material = Material::uniform(tether, tension, 0.0);
+    let k = stiffness(Topology::open(End::Anchored), &material, h, n).unwrap();
+    let mut values = Dense::from_fn(n, |i, j| k.entry(i, j))
+        .eigen()
+        .unwrap()
+        .values;
+    values.sort_by(f64::total_cmp);
+    for (mode, value) in (1..).zip(values) {
+        let sine = (f64::from(mode) * TAU / 4.0 / (n + 1) as f64).sin();
+        let exact = tether + 4.0 * tension / (h * h) * sine * sine;
+        assert!((value - exact).abs() < 1e-12 * exact, "{mode}: {value}");
+    }
+}
+
+#[test]
 fn on_an_even_ring_gershgorins_bound_is_reached() {
     let (n, h) = (16, 0.5);
     let material = Material::uniform(0.3, 2.0, 0.7);

@@ -72,7 +72,7 @@ impl Map {
         Self::new(&shares.mapv(value))
     }
 
-    /// The number at `p`. O(1). NaN at a place that is none.
+    /// The number at `p`. O(1). NaN where a coordinate is NaN or infinite.
     #[must_use]
     pub fn at(&self, p: DVec2) -> f64 {
         let (column, a, _) = cell(p.x, self.width);

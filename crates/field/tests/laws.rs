@@ -139,3 +139,57 @@ proptest! {
         prop_assert!(field.at(DVec2::new(x, y)).length() <= field.largest() * (1.0 + 1e-12));
     }
 }
+
+/// Where the radial force of a bright disc is zero, on average over directions: the edge as found.
+fn found_radius(radius: f64, sigma: f64) -> f64 {
+    let middle = DVec2::new(63.3, 64.6);
+    let image = Grid::from_shape_fn((128, 128), |(row, column)| {
+        let corner = DVec2::new(column as f64, row as f64) - 0.5;
+        let inside = (0..256).filter(|point| {
+            let step = DVec2::new((point % 16) as f64, (point / 16) as f64);
+            (corner + (step + 0.5) / 16.0).distance(middle) < radius
+        });
+        50.0 + 150.0 * inside.count() as f64 / 256.0
+    });
+    let rule = EdgeForce {
+        smoothing: Smoothing::Gaussian(sigma),
+        gain: 1.0,
+    };
+    let field = edge_force(&image, &rule).unwrap();
+    let directions = 60;
+    let zero = |k: i32| {
+        let out = DVec2::from_angle(std::f64::consts::TAU * f64::from(k) / f64::from(directions));
+        let (mut low, mut high) = (radius - 3.0, radius + 3.0);
+        for _ in 0..40 {
+            let r = f64::midpoint(low, high);
+            if field.at(middle + r * out).dot(out) > 0.0 {
+                low = r;
+            } else {
+                high = r;
+            }
+        }
+        f64::midpoint(low, high)
+    };
+    (0..directions).map(zero).sum::<f64>() / f64::from(directions)
+}
+
+/// Theory, section 11.3: after a Gaussian of width σ the steepest place lies σ²/2R inside.
+#[test]
+fn the_edge_of_a_disc_is_found_inside_by_the_bias_of_theory() {
+    for (radius, sigma) in [
+        (20.0, 3.0),
+        (20.0, 10.0_f64.sqrt()),
+        (40.0, 10.0_f64.sqrt()),
+        (40.0, 5.0),
+    ] {
+        let bias = radius - found_radius(radius, sigma);
+        // pixels and differences blur besides, as a Gaussian of variance 2/3 + 1/12 does; the next
+        // order of the series is that of (σ/R)² of it
+        let blur = sigma * sigma + 0.75;
+        let theory = blur / (2.0 * radius) * (1.0 + blur / (radius * radius));
+        assert!(
+            (bias - theory).abs() < 0.06 * theory,
+            "radius {radius}, sigma {sigma}: {bias}, theory {theory}"
+        );
+    }
+}

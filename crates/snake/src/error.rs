@@ -4,7 +4,7 @@ use elastic::ElasticError;
 use glam::DVec2;
 use integrator::SchemeError;
 
-/// A value that no snake can be made of.
+/// A value that a snake cannot have.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SnakeError {

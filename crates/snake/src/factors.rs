@@ -179,7 +179,7 @@ impl Snake {
         }
     }
 
-    /// Stand where `other` does in its schedules, and have found the same in maps that are not looked at all the time.
+    /// Takes over where `other` stands in its schedules, and what it found in maps that are looked up at intervals.
     pub(crate) fn keep_up_with(&mut self, other: &Self) {
         if self.body.maps.is_empty() && !self.body.schedules.is_empty() {
             self.take(other.factors.clone());

@@ -2,23 +2,93 @@
 //! page units, cut at the frame.
 
 use super::figure::{DrawError, LINE, Page, UNITS};
-use super::frame::{Frame, cut, dashes, numbers};
+use super::frame::{Frame, cut, dashes, log_ticks, numbers};
+use super::legend;
 use super::palette::Color;
-use super::panel::{Axis, Corner, Dash, Layer, Line, Panel};
+use super::panel::{Axis, Dash, Layer, Panel, Scale};
 use plotters::prelude::{
-    ChartBuilder, Circle, DrawingArea, IntoFont, PathElement, Polygon, RGBColor, Rectangle,
-    SVGBackend, TextStyle,
+    ChartBuilder, Circle, DrawingArea, IntoFont, PathElement, Polygon, RGBColor, SVGBackend,
+    TextStyle,
 };
 use plotters::style::Color as _;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// Draws a panel; pictures are kept for the page, which puts them below everything.
 pub(crate) fn draw(area: &Area<'_>, panel: &Panel, page: &mut Page) -> Result<(), DrawError> {
-    let frame = axes(area, panel)?;
+    let sides = Sides::of(area, panel, 0.0);
+    let entries = legend::entries(panel);
+    let size = legend::size(&entries);
+    let (sides, place) = match legend::free_place(panel, &sides.frame(area, panel), size) {
+        Some(place) => (sides, place),
+        // nowhere inside without lying on something: beside the frame
+        None => {
+            let sides = Sides::of(area, panel, size.0 / UNITS + 4.0);
+            let frame = sides.frame(area, panel);
+            (sides, (frame.right + 8.0 * UNITS, frame.top))
+        }
+    };
+    let frame = axes(area, panel, &sides)?;
     for layer in &panel.layers {
         draw_layer(area, panel, &frame, layer, page)?;
     }
-    legend(area, panel, &frame)
+    legend::draw(area, &frame, &entries, place)
+}
+
+/// What lies around the frame of a panel, in page pixels.
+struct Sides {
+    left: f64,
+    beside: f64,
+    right: f64,
+    above: f64,
+    below: f64,
+    spare: (f64, f64),
+}
+
+impl Sides {
+    /// Room for numbers, words and heading, and `extra` at the right.
+    fn of(area: &Area<'_>, panel: &Panel, extra: f64) -> Self {
+        let (width, height) = area.dim_in_pixel();
+        let (width, height) = (f64::from(width) / UNITS, f64::from(height) / UNITS);
+        let below = label_room(&panel.x, 14.0, 15.0);
+        let beside = label_room(&panel.y, 38.0, 16.0);
+        let above = if panel.title.is_empty() { 6.0 } else { 22.0 };
+        let right = extra + if panel.x.ticks == 0 { 4.0 } else { 14.0 };
+        let left = if panel.y.label.is_empty() { 4.0 } else { 9.0 };
+        let mut spare = (0.0, 0.0);
+        if panel.equal {
+            let (free_x, free_y) = (width - left - beside - right, height - below - above);
+            let (x0, x1) = (panel.x.place(panel.x.from), panel.x.place(panel.x.to));
+            let (y0, y1) = (panel.y.place(panel.y.from), panel.y.place(panel.y.to));
+            let unit = (free_x / (x1 - x0).abs()).min(free_y / (y1 - y0).abs());
+            spare = (
+                (free_x - unit * (x1 - x0).abs()) / 2.0,
+                (free_y - unit * (y1 - y0).abs()) / 2.0,
+            );
+        }
+        Self {
+            left,
+            beside,
+            right,
+            above,
+            below,
+            spare,
+        }
+    }
+
+    /// Where the frame will be.
+    fn frame(&self, area: &Area<'_>, panel: &Panel) -> Frame {
+        let (x, y) = area.get_base_pixel();
+        let (width, height) = area.dim_in_pixel();
+        let (x, y) = (f64::from(x), f64::from(y));
+        Frame {
+            left: x + UNITS * (self.left + self.spare.0 + self.beside),
+            right: x + f64::from(width) - UNITS * (self.right + self.spare.0),
+            top: y + UNITS * (self.above + self.spare.1),
+            bottom: y + f64::from(height) - UNITS * (self.spare.1 + self.below),
+            x: (panel.x.place(panel.x.from), panel.x.place(panel.x.to)),
+            y: (panel.y.place(panel.y.from), panel.y.place(panel.y.to)),
+        }
+    }
 }
 
 pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
@@ -30,7 +100,7 @@ pub(crate) fn text_style(size: f64, color: Color) -> TextStyle<'static> {
         .color(&rgb(color))
 }
 
-fn rgb(color: Color) -> RGBColor {
+pub(super) fn rgb(color: Color) -> RGBColor {
     RGBColor(color.0, color.1, color.2)
 }
 
@@ -50,37 +120,22 @@ fn whole(at: (f64, f64)) -> (i32, i32) {
     point
 }
 
-fn axes(area: &Area<'_>, panel: &Panel) -> Result<Frame, DrawError> {
-    let (width, height) = area.dim_in_pixel();
-    let (width, height) = (f64::from(width) / UNITS, f64::from(height) / UNITS);
-    let below = label_room(&panel.x, 14.0, 15.0);
-    let beside = label_room(&panel.y, 38.0, 16.0);
-    let above = if panel.title.is_empty() { 6.0 } else { 22.0 };
-    let right = if panel.x.ticks == 0 { 4.0 } else { 14.0 };
+fn axes(area: &Area<'_>, panel: &Panel, sides: &Sides) -> Result<Frame, DrawError> {
     let (x0, x1) = (panel.x.place(panel.x.from), panel.x.place(panel.x.to));
     let (y0, y1) = (panel.y.place(panel.y.from), panel.y.place(panel.y.to));
-    let left = if panel.y.label.is_empty() { 4.0 } else { 9.0 };
-    let (free_x, free_y) = (width - left - beside - right, height - below - above);
-    let (mut spare_x, mut spare_y) = (0.0, 0.0);
-    if panel.equal {
-        let unit = (free_x / (x1 - x0).abs()).min(free_y / (y1 - y0).abs());
-        spare_x = (free_x - unit * (x1 - x0).abs()) / 2.0;
-        spare_y = (free_y - unit * (y1 - y0).abs()) / 2.0;
-    }
-
     let mut builder = ChartBuilder::on(area);
     builder
-        .margin_top(units(above + spare_y))
-        .margin_right(units(right + spare_x))
-        .margin_left(units(left + spare_x))
-        .margin_bottom(units(spare_y))
-        .x_label_area_size(units(below))
-        .y_label_area_size(units(beside));
+        .margin_top(units(sides.above + sides.spare.1))
+        .margin_right(units(sides.right + sides.spare.0))
+        .margin_left(units(sides.left + sides.spare.0))
+        .margin_bottom(units(sides.spare.1))
+        .x_label_area_size(units(sides.below))
+        .y_label_area_size(units(sides.beside));
     let mut chart = builder.build_cartesian_2d(x0..x1, y0..y1)?;
     let (x_numbers, y_numbers) = (numbers(&panel.x), numbers(&panel.y));
     let mut mesh = chart.configure_mesh();
-    mesh.x_labels(panel.x.ticks.max(1))
-        .y_labels(panel.y.ticks.max(1))
+    mesh.x_labels(labels(&panel.x))
+        .y_labels(labels(&panel.y))
         .x_label_formatter(&x_numbers)
         .y_label_formatter(&y_numbers)
         .max_light_lines(0)
@@ -112,6 +167,7 @@ fn axes(area: &Area<'_>, panel: &Panel) -> Result<Frame, DrawError> {
         x: (x0, x1),
         y: (y0, y1),
     };
+    decades(area, panel, &frame)?;
     if !panel.title.is_empty() {
         let middle = ((frame.left + frame.right) / 2.0, frame.top - 5.0 * UNITS);
         let style = text_style(11.5, Color::INK).pos(Pos::new(HPos::Center, VPos::Bottom));
@@ -120,7 +176,49 @@ fn axes(area: &Area<'_>, panel: &Panel) -> Result<Frame, DrawError> {
     Ok(frame)
 }
 
-fn unsigned(length: f64) -> u32 {
+/// How many numbers the drawing library may write; it knows nothing of logarithms.
+fn labels(axis: &Axis) -> usize {
+    match axis.scale {
+        Scale::Linear => axis.ticks.max(1),
+        Scale::Log => 0,
+    }
+}
+
+/// Ticks, numbers and grid lines of logarithmic axes.
+fn decades(area: &Area<'_>, panel: &Panel, frame: &Frame) -> Result<(), DrawError> {
+    let (thin, tick) = (LINE * 0.5, 3.0 * UNITS);
+    let line = |from: (f64, f64), to: (f64, f64), color: Color| -> Result<(), DrawError> {
+        let path = vec![local(area, from), local(area, to)];
+        let style = rgb(color).stroke_width(unsigned(thin));
+        area.draw(&PathElement::new(path, style))?;
+        Ok(())
+    };
+    if panel.x.scale == Scale::Log {
+        let style = text_style(10.0, Color::INK).pos(Pos::new(HPos::Center, VPos::Top));
+        for (at, words) in log_ticks(&panel.x) {
+            let x = frame.place((at, frame.y.0)).0;
+            if panel.grid {
+                line((x, frame.top), (x, frame.bottom), Color::LIGHT)?;
+            }
+            line((x, frame.bottom), (x, frame.bottom + tick), Color::INK)?;
+            write(area, &words, &style, (x, frame.bottom + 2.0 * tick))?;
+        }
+    }
+    if panel.y.scale == Scale::Log {
+        let style = text_style(10.0, Color::INK).pos(Pos::new(HPos::Right, VPos::Center));
+        for (at, words) in log_ticks(&panel.y) {
+            let y = frame.place((frame.x.0, at)).1;
+            if panel.grid {
+                line((frame.left, y), (frame.right, y), Color::LIGHT)?;
+            }
+            line((frame.left - tick, y), (frame.left, y), Color::INK)?;
+            write(area, &words, &style, (frame.left - 2.0 * tick, y))?;
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn unsigned(length: f64) -> u32 {
     units(length / UNITS).unsigned_abs().max(1)
 }
 
@@ -210,13 +308,13 @@ fn draw_layer(
 }
 
 /// Page units to the area's own.
-fn local(area: &Area<'_>, at: (f64, f64)) -> (i32, i32) {
+pub(super) fn local(area: &Area<'_>, at: (f64, f64)) -> (i32, i32) {
     let (x, y) = whole(at);
     let (x0, y0) = area.get_base_pixel();
     (x - x0, y - y0)
 }
 
-fn write(
+pub(super) fn write(
     area: &Area<'_>,
     words: &str,
     style: &TextStyle<'_>,
@@ -254,7 +352,7 @@ fn arrow(
 }
 
 /// A line in page units, cut at the frame and at points that are not finite, dashed if asked.
-fn stroke(
+pub(super) fn stroke(
     area: &Area<'_>,
     frame: &Frame,
     points: &[(f64, f64)],
@@ -275,63 +373,6 @@ fn stroke(
                 area.draw(&PathElement::new(path, style))?;
             }
         }
-    }
-    Ok(())
-}
-
-fn legend(area: &Area<'_>, panel: &Panel, frame: &Frame) -> Result<(), DrawError> {
-    let entries: Vec<(&str, Color, Option<Line>)> = panel
-        .layers
-        .iter()
-        .filter_map(|layer| match layer {
-            Layer::Line(line) if !line.label.is_empty() => {
-                Some((line.label.as_str(), line.color, Some(line.clone())))
-            }
-            Layer::Dots { label, color, .. } if !label.is_empty() => {
-                Some((label.as_str(), *color, None))
-            }
-            _ => None,
-        })
-        .collect();
-    let Some(longest) = entries.iter().map(|entry| entry.0.chars().count()).max() else {
-        return Ok(());
-    };
-    let (row, sample) = (15.0 * UNITS, 20.0 * UNITS);
-    let width = sample + 10.0 * UNITS + crate::real(longest) * 5.4 * UNITS;
-    let height = row * crate::real(entries.len());
-    let gap = 7.0 * UNITS;
-    let left = match panel.legend {
-        Corner::TopLeft | Corner::BottomLeft => frame.left + gap,
-        Corner::TopRight | Corner::BottomRight => frame.right - gap - width,
-    };
-    let top = match panel.legend {
-        Corner::TopLeft | Corner::TopRight => frame.top + gap,
-        Corner::BottomLeft | Corner::BottomRight => frame.bottom - gap - height,
-    };
-    let corners = [(left, top), (left + width, top + height)].map(|p| local(area, p));
-    area.draw(&Rectangle::new(
-        corners,
-        rgb(Color::WHITE).mix(0.85).filled(),
-    ))?;
-    for (index, (words, color, line)) in entries.into_iter().enumerate() {
-        let y = top + row * (crate::real(index) + 0.5);
-        let start = left + 3.0 * UNITS;
-        match line {
-            Some(line) => {
-                let points = [(start, y), (start + sample, y)];
-                stroke(area, frame, &points, color, line.weight, line.dash)?;
-            }
-            None => {
-                let middle = local(area, (start + sample / 2.0, y));
-                area.draw(&Circle::new(
-                    middle,
-                    unsigned(LINE * 1.8),
-                    rgb(color).filled(),
-                ))?;
-            }
-        }
-        let style = text_style(10.5, Color::INK).pos(Pos::new(HPos::Left, VPos::Center));
-        write(area, words, &style, (start + sample + 5.0 * UNITS, y))?;
     }
     Ok(())
 }

@@ -55,10 +55,56 @@ impl Frame {
 pub(crate) fn numbers(axis: &Axis) -> impl Fn(&f64) -> String + use<> {
     let (scale, silent) = (axis.scale, axis.ticks == 0);
     move |&value| match scale {
-        _ if silent => String::new(),
-        Scale::Linear => number(value),
-        Scale::Log if (value - value.round()).abs() < 1e-9 => power_of_ten(value.round()),
-        Scale::Log => String::new(),
+        Scale::Linear if !silent => number(value),
+        _ => String::new(), // a logarithmic axis has ticks of its own
+    }
+}
+
+/// The ticks of a logarithmic axis: where each stands, as a logarithm, and what is written there.
+///
+/// Every decade where there are two or more, else 1, 2 and 5 of each, so that a range can be read from
+/// at least two numbers; where `axis.ticks` is too few for all decades, every second, third, ….
+pub(crate) fn log_ticks(axis: &Axis) -> Vec<(f64, String)> {
+    let (a, b) = (axis.from.log10(), axis.to.log10());
+    let (low, high) = (a.min(b) - 1e-9, a.max(b) + 1e-9);
+    if axis.ticks == 0 || !(low.is_finite() && high.is_finite()) {
+        return Vec::new();
+    }
+    let decades = || {
+        let first = low.ceil();
+        (0..700)
+            .map(move |k| first + f64::from(k))
+            .take_while(move |&decade| decade <= high)
+    };
+    let count = decades().count();
+    if count < 3 {
+        let steps = [1.0, 2.0, 5.0];
+        let from = low.floor();
+        return (0..4)
+            .flat_map(|k| steps.map(|step: f64| (from + f64::from(k), step)))
+            .filter_map(|(decade, step)| {
+                let at = decade + step.log10();
+                (low..=high)
+                    .contains(&at)
+                    .then(|| (at, at_decade(decade, step)))
+            })
+            .collect();
+    }
+    let every = count.div_ceil(axis.ticks.max(2));
+    decades()
+        .filter(|decade| every < 2 || decade.rem_euclid(crate::real(every)) < 0.5)
+        .map(|decade| (decade, power_of_ten(decade)))
+        .collect()
+}
+
+/// One, two or five times a power of ten, in full where that is short.
+fn at_decade(decade: f64, step: f64) -> String {
+    if (-3.0..=4.0).contains(&decade) {
+        return number(step * 10.0_f64.powf(decade));
+    }
+    match step {
+        1.0 => power_of_ten(decade),
+        step => format!("{step}·{}", power_of_ten(decade)),
     }
 }
 
@@ -202,6 +248,28 @@ mod tests {
         let pieces = dashes(&[(0.0, 0.0), (3.0, 0.0), (3.0, 3.0)], 4.0, 1.0);
         assert_eq!(pieces[0], vec![(0.0, 0.0), (3.0, 0.0), (3.0, 1.0)]);
         assert_eq!(pieces[1], vec![(3.0, 2.0), (3.0, 3.0)]);
+    }
+
+    #[test]
+    fn a_logarithmic_axis_has_numbers_to_read_its_range_from() {
+        let words = |from: f64, to: f64, ticks: Option<usize>| {
+            let axis = Axis::log("", from, to);
+            let axis = ticks.map_or(axis.clone(), |ticks| axis.with_ticks(ticks));
+            let ticks = log_ticks(&axis);
+            ticks.into_iter().map(|tick| tick.1).collect::<Vec<_>>()
+        };
+        assert_eq!(words(0.1, 100.0, None), ["10⁻¹", "1", "10", "10²"]);
+        assert_eq!(
+            words(3.0, 300.0, None),
+            ["5", "10", "20", "50", "100", "200"]
+        );
+        assert_eq!(words(12.0, 90.0, None), ["20", "50"]);
+        assert_eq!(
+            words(1e-16, 1.0, Some(5)),
+            ["10⁻¹⁶", "10⁻¹²", "10⁻⁸", "10⁻⁴", "1"]
+        );
+        assert_eq!(words(2e-6, 6e-6, None), ["2·10⁻⁶", "5·10⁻⁶"]);
+        assert!(words(1.0, 10.0, Some(0)).is_empty());
     }
 
     #[test]

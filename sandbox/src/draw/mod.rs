@@ -12,6 +12,7 @@ mod chart;
 mod embed;
 mod figure;
 mod frame;
+mod legend;
 mod palette;
 mod panel;
 mod raster;

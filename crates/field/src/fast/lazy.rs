@@ -41,7 +41,7 @@ pub(crate) fn tile_by_tile(
     while let Some(&p) = points.get(begin) {
         let (x, along) = span(p.x, width, CELLS.0);
         let (y, down) = span(p.y, height, CELLS.1);
-        // what is no place is alone with tile 0
+        // a position that is not finite is a group of its own, in tile 0
         let here = |p: &&DVec2| along.contains(&p.x) && down.contains(&p.y);
         let more = points[begin + 1..].iter().take_while(here).count();
         let end = begin + 1 + more;

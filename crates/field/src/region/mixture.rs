@@ -91,7 +91,7 @@ pub(super) fn learn(counted: &Counted, components: usize) -> Grid {
         for (part, shares) in parts.iter_mut().zip(logs.rows()) {
             let share = shares.sum();
             part.weight = share / pixels;
-            // nobody's: stays where it is
+            // a part to which no pixel is assigned stays as it is
             if part.weight > 1e-9 {
                 for j in 0..channels {
                     let moment = |about: f64, power: i32| {

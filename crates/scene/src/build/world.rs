@@ -245,7 +245,7 @@ pub(super) fn inside(start: &State, picture: &Picture, rules: Rules) -> Result<(
 
 /// What to say of the first place farther than `margin` off a picture's pixel centers, if any.
 ///
-/// Written so that a place that is none is outside too.
+/// Written so that a NaN is outside too.
 pub(crate) fn outside(places: &[DVec2], picture: &Picture, margin: f64) -> Option<String> {
     let (width, height) = picture.size();
     let (least, most) = (-margin, DVec2::new(width as f64, height as f64) - margin);

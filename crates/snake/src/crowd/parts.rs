@@ -16,7 +16,7 @@ const SEEN: f64 = 0.5;
 /// Share of its limit that a cut step has at most.
 const BELOW: f64 = 0.9;
 
-/// Sub-steps of a step at most: a curve that needs more is not one that anybody meant.
+/// Sub-steps of a step at most: a curve that needs more is taken for a mistake in the scene.
 const MOST: f64 = 1000.0;
 
 impl Crowd {

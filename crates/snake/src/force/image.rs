@@ -102,7 +102,7 @@ impl Force for ImageForce {
                     self.field.sample_into(x, rule, sampled);
                     finite &= join(flat(sampled), flat_mut(force));
                 }
-                // a place that is none has a force that is none
+                // a position that is not finite shows as a force that is not
                 if !finite && let Some(fault) = nowhere(x) {
                     return Err(fault);
                 }

@@ -51,7 +51,7 @@ impl Spring {
     ///
     /// # Errors
     ///
-    /// Refused: fewer than two nodes, a place that is none.
+    /// Refused: fewer than two nodes, a position that is not finite.
     pub fn at_nearest(
         nodes: &[DVec2],
         closed: bool,

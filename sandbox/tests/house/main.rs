@@ -1,0 +1,198 @@
+//! The house rules that matter are code: floors, doors, sizes, ledgers, licences.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test may stop the process"
+)]
+
+use std::path::{Path, PathBuf};
+
+mod ledgers;
+mod licences;
+mod sizes;
+mod words;
+
+/// Own packages and their floor: an arrow may only point to a lower one.
+const FLOORS: [(&str, u32); 13] = [
+    ("lanes", 0),
+    ("banded", 0),
+    ("field", 1),
+    ("elastic", 1),
+    ("outline", 1),
+    ("integrator", 1),
+    ("snake", 2),
+    ("tracker", 3),
+    ("scene", 4),
+    ("cli", 5),
+    ("sandbox", 5),
+    ("benches", 6), // it times what the sandbox tries
+    ("py", 5),
+];
+
+/// Outside crates and who may open the door to them. `*` is everybody, `test` everybody's tests.
+const DOORS: [(&str, &[&str]); 22] = [
+    ("glam", &["*"]),
+    ("thiserror", &["*"]),
+    ("ndarray", &["field", "scene", "sandbox", "benches"]),
+    ("robust", &["outline"]),
+    ("pulp", &["lanes", "banded", "field"]),
+    ("bytemuck", &["lanes"]),
+    ("rustfft", &["banded"]),
+    ("serde", &["scene"]),
+    ("serde_json", &["scene", "sandbox: test"]), // what cargo metadata says
+    ("toml", &["scene", "sandbox: test"]),       // this file reads manifests
+    ("image", &["scene"]),
+    ("tiff", &["scene"]),
+    ("strsim", &["scene"]),
+    ("tempfile", &["scene", "test"]),
+    ("clap", &["cli", "sandbox"]),
+    ("indicatif", &["cli", "sandbox"]),
+    ("plotters", &["sandbox"]),
+    ("gif", &["sandbox"]),
+    ("criterion", &["benches"]),
+    ("diffsol", &["benches"]),
+    ("ode_solvers", &["benches"]),
+    ("proptest", &["test"]),
+];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Every package of the workspace: its name and folder.
+fn packages() -> Vec<(String, PathBuf)> {
+    let mut folders: Vec<PathBuf> = std::fs::read_dir(root().join("crates"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    folders.extend([root().join("sandbox"), root().join("benches")]);
+    let mut out: Vec<(String, PathBuf)> = folders
+        .into_iter()
+        .filter(|folder| folder.join("Cargo.toml").exists())
+        .map(|folder| {
+            let name = manifest(&folder)["package"]["name"]
+                .as_str()
+                .unwrap()
+                .to_owned();
+            (name, folder)
+        })
+        .collect();
+    out.sort();
+    out
+}
+
+fn manifest(folder: &Path) -> toml::Table {
+    std::fs::read_to_string(folder.join("Cargo.toml"))
+        .unwrap()
+        .parse()
+        .unwrap()
+}
+
+/// What a package depends on: name, whether only its tests do, and whether the workspace says how.
+fn dependencies(folder: &Path) -> Vec<(String, bool, bool)> {
+    let manifest = manifest(folder);
+    let mut tables = vec![&manifest];
+    if let Some(targets) = manifest.get("target").and_then(toml::Value::as_table) {
+        tables.extend(targets.values().filter_map(toml::Value::as_table));
+    }
+    let mut out = Vec::new();
+    for table in tables {
+        for (kind, test) in [
+            ("dependencies", false),
+            ("build-dependencies", false),
+            ("dev-dependencies", true),
+        ] {
+            for (name, how) in table
+                .get(kind)
+                .and_then(toml::Value::as_table)
+                .into_iter()
+                .flatten()
+            {
+                let shared = how
+                    .get("workspace")
+                    .and_then(toml::Value::as_bool)
+                    .unwrap_or(false);
+                out.push((name.clone(), test, shared));
+            }
+        }
+    }
+    out
+}
+
+fn floor(name: &str) -> Option<u32> {
+    FLOORS
+        .iter()
+        .find(|(known, _)| *known == name)
+        .map(|(_, floor)| *floor)
+}
+
+#[test]
+fn arrows_between_crates_point_down_only() {
+    for (name, folder) in packages() {
+        let own = floor(&name).unwrap_or_else(|| panic!("{name} stands on no floor"));
+        for (other, _, _) in dependencies(&folder) {
+            if let Some(below) = floor(&other) {
+                assert!(
+                    below < own,
+                    "{name} (floor {own}) depends on {other} (floor {below})"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn every_outside_crate_comes_in_by_its_own_door() {
+    for (name, folder) in packages() {
+        for (other, test, shared) in dependencies(&folder) {
+            assert!(shared, "{name}: {other} should say workspace = true");
+            if floor(&other).is_some() {
+                continue;
+            }
+            let doors = DOORS
+                .iter()
+                .find(|(known, _)| *known == other)
+                .map(|(_, doors)| *doors);
+            let doors =
+                doors.unwrap_or_else(|| panic!("{name}: {other} is new; decide on its door"));
+            let open = doors.iter().any(|door| match *door {
+                "*" => true,
+                "test" => test,
+                door => door == name || test && door == format!("{name}: test"),
+            });
+            assert!(open, "{name} may not use {other}; its doors are {doors:?}");
+        }
+    }
+}
+
+/// All Rust files of the workspace, with their text.
+fn sources() -> Vec<(PathBuf, String)> {
+    let mut out = Vec::new();
+    let mut folders: Vec<PathBuf> = packages().into_iter().map(|(_, folder)| folder).collect();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() && !path.ends_with("target") {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "rs") {
+                let text = std::fs::read_to_string(&path).unwrap();
+                out.push((path, text));
+            }
+        }
+    }
+    out.sort();
+    out
+}
+
+#[test]
+fn every_experiment_has_its_expected_numbers() {
+    for experiment in sandbox::EXPERIMENTS {
+        let file = sandbox::expected_folder().join(format!("{}.csv", experiment.id));
+        assert!(
+            file.exists(),
+            "{} is missing; figures --accept writes it",
+            file.display()
+        );
+    }
+}
