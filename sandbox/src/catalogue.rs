@@ -38,6 +38,7 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &forces::BARS,
     &forces::ROTATION,
     &forces::CAPTURE,
+    &forces::FITTED,
     &forces::NOISE,
     &apple::FIRST,
     &apple::SECOND,

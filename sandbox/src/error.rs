@@ -39,6 +39,14 @@ pub enum SandboxError {
         /// The refusal in the words of the crate below.
         reason: String,
     },
+    /// An experiment that is not one of those asked among.
+    #[error("--only must be one of {known}, got {id}")]
+    Unknown {
+        /// What was asked for.
+        id: String,
+        /// The ids there are.
+        known: String,
+    },
     /// A figure could not be drawn.
     #[error(transparent)]
     Draw(#[from] DrawError),

@@ -7,13 +7,16 @@
 //!                                                         └── draw ──▶ SVG, GIF
 //! ```
 //!
-//! Running and drawing are two functions, and drawing sees the record only. The drawing itself is
-//! never tested; claims and numbers always are.
+//! Running and drawing are two functions, and drawing sees the record only. `figures --check` holds
+//! claims, numbers, tolerances, drawings and the gallery against what is committed, and moves every
+//! number that a claim reads until its verdict changes.
 //!
 //! This crate computes nothing of its own: physics, fields and schemes come from the crates below.
 //! It is the only place that draws.
 
 mod catalogue;
+mod check;
+mod demand;
 pub mod draw;
 mod error;
 mod expected;
@@ -23,21 +26,25 @@ mod folder;
 mod gallery;
 mod page;
 mod record;
+mod tolerance;
+mod verdict;
 mod work;
 
 pub use catalogue::{EXPERIMENTS, find};
+pub use check::{Committed, claims, faults};
 pub use error::SandboxError;
 pub use expected::{Moved, accept, compare, expected_folder};
 pub use experiment::{Artefact, Body, Claim, Experiment, Finding};
 pub use experiments::atlas::ATLAS;
 pub use experiments::integrators::{
-    Effort, INTEGRATORS, NODES, Stopwatch, Trial, apple, coarsest, edge, effort, least_steps, ring,
-    scan, wall,
+    Care, Effort, INTEGRATORS, INTEGRATORS_IN_SHORT, NODES, Stopwatch, Trial, apple, coarsest,
+    edge, effort, least_steps, ring, scan, wall,
 };
 pub use folder::Folder;
 pub use gallery::gallery;
 pub use page::page;
-pub use record::{Column, Number, Record, Table, Tolerance};
+pub use record::{Column, Number, Read, Record, Table};
+pub use tolerance::Tolerance;
 pub use work::{Done, Drawn, committed_folder, perform, perform_all};
 
 /// A count as a number. Exact: no count here comes near 2⁵³.

@@ -1,46 +1,9 @@
 //! What a run leaves behind: single numbers, tables, grids. Everything a claim or a drawing needs.
 
-use crate::SandboxError;
+use crate::{SandboxError, Tolerance};
 use ndarray::Array2;
+use std::cell::RefCell;
 use std::fmt::Write;
-
-/// How far a number may stray from the expected one before `figures --check` says it moved.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Tolerance {
-    /// At most so much, in the number's own unit. Zero: to the last digit.
-    Absolute(f64),
-    /// At most this share of the expected number.
-    Relative(f64),
-}
-
-impl Tolerance {
-    /// For counts, yes and no.
-    pub const EXACT: Self = Self::Absolute(0.0);
-    /// For results of a few thousand operations: rounding, and the last bits of a foreign `sin`.
-    pub const ROUNDING: Self = Self::Absolute(1e-9);
-
-    /// Whether `value` is close enough to `expected`. Values that are not finite must be the same.
-    #[must_use]
-    pub fn allows(self, value: f64, expected: f64) -> bool {
-        if !(value.is_finite() && expected.is_finite()) {
-            return value.to_bits() == expected.to_bits() || value.is_nan() && expected.is_nan();
-        }
-        let distance = (value - expected).abs();
-        match self {
-            Self::Absolute(most) => distance <= most,
-            Self::Relative(share) => distance <= share * expected.abs(),
-        }
-    }
-}
-
-impl std::fmt::Display for Tolerance {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Absolute(most) => write!(f, "{}", shortest(*most)),
-            Self::Relative(share) => write!(f, "{} of it", shortest(*share)),
-        }
-    }
-}
 
 /// One result with its name and unit.
 #[derive(Debug, Clone, PartialEq)]
@@ -164,6 +127,24 @@ pub(crate) fn shortest(value: f64) -> String {
     }
 }
 
+/// What a judge asked a record for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Read {
+    /// A single number, by its name.
+    Number(String),
+    /// A column, by the names of its table and its own.
+    Column(String, String),
+}
+
+impl std::fmt::Display for Read {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Number(name) => write!(f, "{name}"),
+            Self::Column(table, column) => write!(f, "column {column} of {table}"),
+        }
+    }
+}
+
 /// What a run leaves behind.
 #[derive(Debug, Clone, Default)]
 pub struct Record {
@@ -173,9 +154,25 @@ pub struct Record {
     pub tables: Vec<Table>,
     /// Grids for drawing: pictures and fields.
     pub grids: Vec<(String, Array2<f64>)>,
+    /// What was asked of it since [`Record::read_by`] began to listen.
+    reads: RefCell<Vec<Read>>,
 }
 
 impl Record {
+    /// What `reader` asks this record for, each once, besides its answer. What is only shown
+    /// ([`Record::told`]) does not count.
+    pub fn read_by<T>(&self, reader: impl FnOnce(&Self) -> T) -> (T, Vec<Read>) {
+        self.reads.borrow_mut().clear();
+        let answer = reader(self);
+        let mut reads = Vec::new();
+        for read in self.reads.take() {
+            if !reads.contains(&read) {
+                reads.push(read);
+            }
+        }
+        (answer, reads)
+    }
+
     /// Notes a number.
     pub fn note(
         &mut self,
@@ -202,24 +199,49 @@ impl Record {
         self.grids.push((name.into(), grid));
     }
 
-    /// A number by its name.
+    /// A number to judge by.
+    ///
+    /// # Errors
+    ///
+    /// When it was not noted, or is not a number (NaN): no verdict follows from that.
+    pub fn number(&self, name: &str) -> Result<f64, SandboxError> {
+        self.reads.borrow_mut().push(Read::Number(name.to_owned()));
+        let value = self.told(name)?;
+        if value.is_nan() {
+            return Err(missing("value (it is NaN) of the number", name));
+        }
+        Ok(value)
+    }
+
+    /// A number that is only shown: no verdict depends on it.
     ///
     /// # Errors
     ///
     /// When it was not noted.
-    pub fn number(&self, name: &str) -> Result<f64, SandboxError> {
+    pub fn told(&self, name: &str) -> Result<f64, SandboxError> {
         let found = self.numbers.iter().find(|number| number.name == name);
         found
             .map(|number| number.value)
             .ok_or_else(|| missing("number", name))
     }
 
-    /// A column by the names of its table and its own.
+    /// A column to judge by, by the names of its table and its own.
     ///
     /// # Errors
     ///
     /// When there is no such table, or no such column in it.
     pub fn column(&self, table: &str, column: &str) -> Result<&[f64], SandboxError> {
+        let read = Read::Column(table.to_owned(), column.to_owned());
+        self.reads.borrow_mut().push(read);
+        self.told_column(table, column)
+    }
+
+    /// A column that is only shown or looked up in: no verdict depends on it.
+    ///
+    /// # Errors
+    ///
+    /// As [`Record::column`].
+    pub fn told_column(&self, table: &str, column: &str) -> Result<&[f64], SandboxError> {
         let table = self
             .tables
             .iter()
@@ -295,12 +317,25 @@ mod tests {
     }
 
     #[test]
-    fn tolerances_measure_as_they_say() {
-        assert!(Tolerance::Absolute(0.1).allows(1.05, 1.0));
-        assert!(!Tolerance::Absolute(0.1).allows(1.2, 1.0));
-        assert!(Tolerance::Relative(0.1).allows(109.0, 100.0));
-        assert!(!Tolerance::EXACT.allows(1.0 + f64::EPSILON, 1.0));
-        assert!(Tolerance::EXACT.allows(f64::NAN, f64::NAN));
-        assert!(!Tolerance::Absolute(1.0).allows(f64::INFINITY, 1.0));
+    fn what_a_judge_reads_is_known_and_nan_is_no_answer() {
+        let mut record = Record::default();
+        record.note("a", 1.0, "", Tolerance::EXACT);
+        record.note("b", 2.0, "", Tolerance::EXACT);
+        record.note("lost", f64::NAN, "", Tolerance::EXACT);
+        record.keep(Table::new("t").with("x", "", Tolerance::EXACT, vec![3.0]));
+        let (sum, reads) = record.read_by(|r| -> Result<f64, SandboxError> {
+            Ok(r.number("a")? + r.number("a")? + r.column("t", "x")?[0] + r.told("b")?)
+        });
+        assert_eq!(sum.unwrap().to_bits(), 7.0_f64.to_bits());
+        let names: Vec<String> = reads.iter().map(ToString::to_string).collect();
+        assert_eq!(names, ["a", "column x of t"]);
+        assert!(
+            record
+                .number("lost")
+                .unwrap_err()
+                .to_string()
+                .contains("NaN")
+        );
+        assert!(record.number("none").is_err());
     }
 }

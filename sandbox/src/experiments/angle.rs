@@ -1,5 +1,6 @@
 //! Figure 5.1: the difference in direction of two vectors (report §5.3).
 
+use crate::demand::{above, below, judged};
 use crate::draw::{Axis, Color, Corner, Figure, Layer, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
 use elastic::{Estimate, turning_angle};
@@ -20,26 +21,19 @@ pub(crate) const ANGLE: Experiment = Experiment {
         Claim {
             says: "the length of u₂/|u₂| − u₁/|u₁| is 2 sin(θ/2)",
             source: "report §5.3, D79",
-            judge: |r| {
-                let off = r.number("unit vectors against 2 sin(θ/2)")?;
-                Ok(Finding::new(
-                    off < 1e-14,
-                    format!("largest difference {off:.1e} over all θ"),
-                ))
-            },
+            judge: |r| judged(r, &[below("unit vectors against 2 sin(θ/2)", 1e-14)]),
         },
         Claim {
             says: "it is θ for small angles, and less for sharp ones",
             source: "report §5.3",
             judge: |r| {
-                let (small, right) = (
-                    r.number("2 sin(θ/2) over θ at 10°")?,
-                    r.number("2 sin(θ/2) over θ at 90°")?,
-                );
-                Ok(Finding::new(
-                    small > 0.998 && right < 0.91,
-                    format!("{small:.4} of θ at 10°, {right:.3} at 90°"),
-                ))
+                judged(
+                    r,
+                    &[
+                        above("2 sin(θ/2) over θ at 10°", 0.998),
+                        below("2 sin(θ/2) over θ at 90°", 0.91),
+                    ],
+                )
             },
         },
         Claim {
@@ -62,9 +56,20 @@ pub(crate) const ANGLE: Experiment = Experiment {
             source: "D73",
             judge: |r| {
                 let (left, right) = (r.number("turn by −50°")?, r.number("turn by 50°")?);
+                let cosines = (
+                    r.number("arc cosine of a turn by −50°")?,
+                    r.number("arc cosine of a turn by 50°")?,
+                );
+                let is = |found: f64, turn: f64| (found - turn).abs() < 1e-9;
                 Ok(Finding::new(
-                    (left + 50.0).abs() < 1e-9 && (right - 50.0).abs() < 1e-9,
-                    format!("{left:.0}° and {right:.0}°"),
+                    is(left, -50.0)
+                        && is(right, 50.0)
+                        && is(cosines.0, 50.0)
+                        && is(cosines.1, 50.0),
+                    format!(
+                        "arc cosine {:.0}° and {:.0}°, arc tangent {left:.0}° and {right:.0}°",
+                        cosines.0, cosines.1
+                    ),
                 ))
             },
         },
@@ -194,6 +199,14 @@ fn run() -> Result<Record, SandboxError> {
             "turn by 50°"
         };
         record.note(name, turned.to_degrees(), "°", Tolerance::ROUNDING);
+        // the formula of §5.3 with the plus that a dot product has (D71)
+        let other = DVec2::from_angle((sign * SHOWN).to_radians());
+        record.note(
+            format!("arc cosine of a {name}"),
+            DVec2::X.dot(other).acos().to_degrees(),
+            "°",
+            Tolerance::ROUNDING,
+        );
     }
     record.keep(
         Table::new("direction")

@@ -1,6 +1,7 @@
 //! Report §5.4: pressure inside the curve, by every law, and what it cannot do.
 
 use super::pixels::grey;
+use crate::demand::{below, judged};
 use crate::draw::{Axis, Color, Corner, Figure, Line, Panel, Picture};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
 use elastic::{Material, Topology};
@@ -52,13 +53,7 @@ pub(crate) const BALLOON: Experiment = Experiment {
         Claim {
             says: "without pressure the circle stays small: the edge is out of reach",
             source: "report §5.4",
-            judge: |r| {
-                let far = r.number("no pressure: farthest node")?;
-                Ok(Finding::new(
-                    far < 16.0,
-                    format!("{far:.1} px from the middle at most, of {:.0}", RINGS[1]),
-                ))
-            },
+            judge: |r| judged(r, &[below("no pressure: farthest node", 16.0)]),
         },
         Claim {
             says: "a constant pressure passes the weak edge, and the strong one stops it",

@@ -1,5 +1,6 @@
 //! Report §3.4.2: one damped spring, three kinds of motion.
 
+use crate::demand::{below, judged, near};
 use crate::draw::{Axis, Color, Corner, Figure, Layer, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
 use integrator::problems::{damped_spring, spring_motion};
@@ -30,7 +31,7 @@ pub(crate) const DAMPING: Experiment = Experiment {
             source: "report §3.4.2",
             judge: |r| {
                 let count = r.number("underdamped; c = 0.3: crossings of zero")?;
-                let rest = r.number("underdamped; c = 0.3: time to rest")?;
+                let rest = r.told("underdamped; c = 0.3: time to rest")?;
                 Ok(Finding::new(
                     count > 5.5,
                     format!("{count} crossings of zero in 25 s, within 2 % after {rest:.1} s"),
@@ -56,12 +57,13 @@ pub(crate) const DAMPING: Experiment = Experiment {
             says: "critical damping goes straight to rest, first of all that do not overshoot",
             source: "report §3.4.2",
             judge: |r| {
-                let best = r.number("first to rest without overshoot")?;
-                let count = r.number("critical; c = 2: crossings of zero")?;
-                Ok(Finding::new(
-                    (best - 2.0).abs() < 0.011 && count < 0.5,
-                    format!("of c = 0.1 … 6 the first is c = {best:.2}"),
-                ))
+                judged(
+                    r,
+                    &[
+                        near("first to rest without overshoot", 2.0, 0.011),
+                        below("critical; c = 2: crossings of zero", 0.5),
+                    ],
+                )
             },
         },
         Claim {
@@ -69,7 +71,7 @@ pub(crate) const DAMPING: Experiment = Experiment {
             source: "D22",
             judge: |r| {
                 let critical = r.number("critical damping of m = k = 1")?;
-                let slow = r.number("overdamped; c = 4: time to rest")?;
+                let slow = r.told("overdamped; c = 4: time to rest")?;
                 Ok(Finding::new(
                     (critical - 2.0).abs() < 1e-12,
                     format!(

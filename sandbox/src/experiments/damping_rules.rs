@@ -81,18 +81,19 @@ pub(crate) const RULES_OF_DAMPING: Experiment = Experiment {
             },
         },
         Claim {
-            says: "the report's wish, damping critical at each node, is the slowest: long waves creep",
+            says: "the report's wish, damping critical at each node, is the slowest of the rules for a damping of the medium: long waves creep",
             source: "report §3.4.2",
             judge: |r| {
                 let mut least = f64::INFINITY;
                 for (case, ..) in &CASES[..5] {
-                    let best = r.number(&format!("{case}: best constant"))?;
-                    let rule = r.number(&format!("{case}: critical for each node"))?;
-                    least = least.min(rule / best);
+                    let node = r.number(&format!("{case}: critical for each node"))?;
+                    for other in ["critical for the slowest mode", "critical for the third"] {
+                        least = least.min(node / r.number(&format!("{case}: {other}"))?);
+                    }
                 }
                 Ok(Finding::new(
-                    least > 2.0,
-                    format!("{least:.1} times the best constant at least"),
+                    least > 1.0,
+                    format!("at least {least:.1} times the time of the other two"),
                 ))
             },
         },
@@ -175,7 +176,7 @@ fn case(name: &str) -> Result<Settling, SandboxError> {
 fn run() -> Result<Record, SandboxError> {
     let mut record = Record::default();
     // moments of looking are a fifth of the run apart
-    let like = Tolerance::Relative(0.02);
+    let like = Tolerance::RelativeOrInfinite(0.02);
     for (name, low, high, own) in CASES {
         let run = case(name)?;
         let under = |rules: &[Damping]| run.under(rules).map_err(SandboxError::refused(ID));

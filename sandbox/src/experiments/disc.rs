@@ -1,6 +1,7 @@
 //! Report §4.2.2: the force around a disc, axis by axis and of the norm.
 
 use super::pixels::{arrows, grey};
+use crate::demand::{above, below, judged};
 use crate::draw::{Axis, Color, Corner, Figure, Line, Panel, Picture};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
 use field::{
@@ -26,40 +27,32 @@ pub(crate) const DISC: Experiment = Experiment {
         Claim {
             says: "the report's pull to the edge depends on the direction",
             source: "D38, D39",
-            judge: |r| {
-                let spread = r.number("report: pull; largest over least")?;
-                Ok(Finding::new(
-                    spread > 1.2,
-                    format!("strongest over weakest {spread:.2}"),
-                ))
-            },
+            judge: |r| judged(r, &[above("report: pull; largest over least", 1.2)]),
         },
         Claim {
             says: "and it pulls along the edge as well",
             source: "D39",
             judge: |r| {
-                let share = r.number("report: pull along the edge; share of that to it")?;
-                Ok(Finding::new(
-                    share > 0.2,
-                    format!("{:.0} % of the pull to it", 100.0 * share),
-                ))
+                judged(
+                    r,
+                    &[above(
+                        "report: pull along the edge; share of that to it",
+                        0.2,
+                    )],
+                )
             },
         },
         Claim {
             says: "F = ∇|∇(G ∗ S)| of the norm is the same in every direction",
             source: "D39",
             judge: |r| {
-                let (spread, share) = (
-                    r.number("corrected: pull; largest over least")?,
-                    r.number("corrected: pull along the edge; share of that to it")?,
-                );
-                Ok(Finding::new(
-                    spread < 1.06 && share < 0.05,
-                    format!(
-                        "strongest over weakest {spread:.3}, along the edge {:.1} %",
-                        100.0 * share
-                    ),
-                ))
+                judged(
+                    r,
+                    &[
+                        below("corrected: pull; largest over least", 1.06),
+                        below("corrected: pull along the edge; share of that to it", 0.05),
+                    ],
+                )
             },
         },
         Claim {

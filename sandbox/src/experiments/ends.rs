@@ -1,5 +1,6 @@
 //! Report §3.2, what happens at the ends (D3, D4): a bent strip in empty space.
 
+use crate::demand::{above, below, judged};
 use crate::draw::{Axis, Color, Corner, Figure, Line, Panel};
 use crate::experiments::motion::{Frames, changed_scene, keep_frames, range, to_the_end};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance};
@@ -27,24 +28,12 @@ pub(crate) const ENDS_OF_A_STRIP: Experiment = Experiment {
         Claim {
             says: "with free ends the center stays where it is",
             source: "D3, D5",
-            judge: |r| {
-                let way = r.number("free ends: center moved at most")?;
-                Ok(Finding::new(
-                    way < 1e-12,
-                    format!("moved by {way:.1e} at most"),
-                ))
-            },
+            judge: |r| judged(r, &[below("free ends: center moved at most", 1e-12)]),
         },
         Claim {
             says: "with the report's ends the snake pushes itself along, though nothing is there to push against",
             source: "D4",
-            judge: |r| {
-                let way = r.number("anchored ends: center moved at most")?;
-                Ok(Finding::new(
-                    way > 0.5,
-                    format!("moved by {way:.2} at most, on a strip of length 38"),
-                ))
-            },
+            judge: |r| judged(r, &[above("anchored ends: center moved at most", 0.5)]),
         },
         Claim {
             says: "both straighten out towards the straight rest shape",
@@ -183,7 +172,7 @@ fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
         .with(260.0, panels)
         .with(270.0, vec![near, moved]);
     Ok(vec![Artefact::figure(
-        "Above: after 0, 1, 2, 4, 8, 20 s, from blue to red. Free ends: the forces sum to zero. The report's ends act as if \
+        "Above: after 0, 1, 2, 4, 8, 20 s, from blue to orange. Free ends: the forces sum to zero. The report's ends act as if \
          an undeformed node were held beyond each, so they do not.",
         figure,
     )])

@@ -1,5 +1,6 @@
 //! The energies of report §2.3 and §2.4 at every moment: what damping takes is what the sum loses.
 
+use crate::demand::{at_most, below, judged};
 use crate::draw::{Axis, Color, Figure, Line, Panel};
 use crate::experiments::motion::{Frames, changed_scene, keep_energies, keep_frames, thin};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance};
@@ -19,11 +20,10 @@ pub(crate) const ENERGY: Experiment = Experiment {
             says: "the damping force dissipates the energy: the sum loses ∫∫ γ v² ds dt",
             source: "report §2.3",
             judge: |r| {
-                let off = r.number("largest difference of loss and dissipation")?;
-                Ok(Finding::new(
-                    off < 1e-3,
-                    format!("they differ by {off:.1e} of the energy at the start, at most"),
-                ))
+                judged(
+                    r,
+                    &[below("largest difference of loss and dissipation", 1e-3)],
+                )
             },
         },
         Claim {
@@ -43,13 +43,7 @@ pub(crate) const ENERGY: Experiment = Experiment {
         Claim {
             says: "the sum falls at every step",
             source: "report §2.3",
-            judge: |r| {
-                let rise = r.number("largest rise of the sum in a step")?;
-                Ok(Finding::new(
-                    rise <= 1e-4,
-                    format!("largest rise {rise:.1e} of the start"),
-                ))
-            },
+            judge: |r| judged(r, &[at_most("largest rise of the sum in a step", 1e-4)]),
         },
         Claim {
             says: "all of it is gone at the rate γ/μ of an underdamped body",
@@ -221,7 +215,7 @@ fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
     )
     .with(330.0, vec![shapes, terms, loss]);
     Ok(vec![Artefact::figure(
-        "Left: the oval swings about the circle, from blue to red. Middle: kinetic and elastic energy take turns. \
+        "Left: the oval swings about the circle, from blue to orange. Middle: kinetic and elastic energy take turns. \
          Right: what the sum loses, damping takes.",
         figure,
     )])

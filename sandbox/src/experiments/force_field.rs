@@ -1,6 +1,7 @@
 //! Figure 4.5: the force field of a photograph, as arrows and as colors (report §4.2.2).
 
 use super::pixels::{arrows, grey, shrunk, signed, strongest_arrows};
+use crate::demand::{above, below, judged};
 use crate::draw::{Axis, Color, Figure, Line, Panel, Picture};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
 use elastic::normals;
@@ -26,29 +27,26 @@ pub(crate) const FIELD: Experiment = Experiment {
             says: "the forces point to the contour from inside and from outside",
             source: "report §4.2.2",
             judge: |r| {
-                let (inside, outside) = (
-                    r.number("report: pulled outward 4 px inside")?,
-                    r.number("report: pulled inward 4 px outside")?,
-                );
-                Ok(Finding::new(
-                    inside > 0.7 && outside > 0.7,
-                    format!(
-                        "of 400 points {:.0} % inside are pulled out, {:.0} % outside are pulled in",
-                        100.0 * inside,
-                        100.0 * outside
-                    ),
-                ))
+                judged(
+                    r,
+                    &[
+                        above("report: pulled outward 4 px inside", 0.7),
+                        above("report: pulled inward 4 px outside", 0.7),
+                    ],
+                )
             },
         },
         Claim {
             says: "the force vanishes on the contour, within the care it was drawn with",
             source: "report §4.2.2",
             judge: |r| {
-                let median = r.number("corrected: median distance of the zero from the contour")?;
-                Ok(Finding::new(
-                    median < 2.0,
-                    format!("zero of the force {median:.2} px from it (median)"),
-                ))
+                judged(
+                    r,
+                    &[below(
+                        "corrected: median distance of the zero from the contour",
+                        2.0,
+                    )],
+                )
             },
         },
         Claim {
@@ -70,14 +68,13 @@ pub(crate) const FIELD: Experiment = Experiment {
             says: "the corrected field does the same",
             source: "D38, D39",
             judge: |r| {
-                let (inside, outside) = (
-                    r.number("corrected: pulled outward 4 px inside")?,
-                    r.number("corrected: pulled inward 4 px outside")?,
-                );
-                Ok(Finding::new(
-                    inside > 0.7 && outside > 0.7,
-                    format!("{:.0} % and {:.0} %", 100.0 * inside, 100.0 * outside),
-                ))
+                judged(
+                    r,
+                    &[
+                        above("corrected: pulled outward 4 px inside", 0.7),
+                        above("corrected: pulled inward 4 px outside", 0.7),
+                    ],
+                )
             },
         },
     ],

@@ -1,5 +1,6 @@
 //! Report §3.2: the elastic matrix as printed, and as it should be.
 
+use crate::demand::{above, below, judged};
 use crate::draw::{Axis, Color, Corner, Figure, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
 use banded::{Band, Operator};
@@ -27,14 +28,13 @@ pub(crate) const MATRIX: Experiment = Experiment {
             says: "the right matrix resists every wave, the printed one feeds some",
             source: "D1",
             judge: |r| {
-                let (right, printed) = (
-                    r.number("right: least of the symbol")?,
-                    r.number("printed: least of the symbol")?,
-                );
-                Ok(Finding::new(
-                    right > 0.0 && printed < 0.0,
-                    format!("least stiffness of a wave {right:.2} against {printed:.2}"),
-                ))
+                judged(
+                    r,
+                    &[
+                        above("right: least of the symbol", 0.0),
+                        below("printed: least of the symbol", 0.0),
+                    ],
+                )
             },
         },
         Claim {
@@ -72,11 +72,10 @@ pub(crate) const MATRIX: Experiment = Experiment {
             says: "with the right one it comes back to its shape",
             source: "report Eq. 3.2",
             judge: |r| {
-                let left = r.number("right: deformation left; share of the first")?;
-                Ok(Finding::new(
-                    left < 0.5,
-                    format!("{:.0} % of the deformation left after 30 s", 100.0 * left),
-                ))
+                judged(
+                    r,
+                    &[below("right: deformation left; share of the first", 0.5)],
+                )
             },
         },
     ],

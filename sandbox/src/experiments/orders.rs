@@ -1,5 +1,6 @@
 //! Report Eq. 2.6 to 2.9: what the order p of the elastic energy does to a noisy outline.
 
+use crate::demand::{below, judged};
 use crate::draw::{Axis, Color, Corner, Figure, Layer, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
 use elastic::{Material, Profile, Topology};
@@ -29,13 +30,7 @@ pub(crate) const ORDERS: Experiment = Experiment {
         Claim {
             says: "a ring of order p is a filter whose wave j keeps 1/(1 + λⱼ/κ), to the rounding of a run that rests",
             source: "report Eq. 2.6 to 2.10",
-            judge: |r| {
-                let off = r.number("largest distance from the exact filter")?;
-                Ok(Finding::new(
-                    off < 1e-6,
-                    format!("off by {off:.1e} at most, over four orders and sixty waves"),
-                ))
-            },
+            judge: |r| judged(r, &[below("largest distance from the exact filter", 1e-6)]),
         },
         Claim {
             says: "the higher the order, the more of the lobes is kept",
@@ -86,7 +81,7 @@ pub(crate) const ORDERS: Experiment = Experiment {
                     .map(|p| r.number(&format!("p = {p}: largest step")))
                     .collect::<Result<_, _>>()?;
                 Ok(Finding::new(
-                    off[3] < off[1] && off[1] < off[0] && steps.windows(2).all(|k| k[1] < k[0]),
+                    off.windows(2).all(|k| k[1] < k[0]) && steps.windows(2).all(|k| k[1] < k[0]),
                     format!(
                         "rms {:.2}, {:.2}, {:.2}, {:.2} px; steps {:.3}, {:.3}, {:.3}, {:.4}",
                         off[0], off[1], off[2], off[3], steps[0], steps[1], steps[2], steps[3]
@@ -249,7 +244,7 @@ fn run() -> Result<Record, SandboxError> {
         record.note(format!("p = {p}: lobes kept"), kept[6 - 2], "", close);
         record.note(
             format!("p = {p}: fine noise kept"),
-            exact[exact.len() - 1],
+            kept[kept.len() - 1],
             "",
             close,
         );

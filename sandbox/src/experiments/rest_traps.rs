@@ -1,5 +1,6 @@
 //! The traps of stop tests: slow is not at rest, and a sparse curve need not collapse.
 
+use crate::demand::{above, judged};
 use crate::draw::{Axis, Color, Figure, Layer, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
 use elastic::{Material, Topology};
@@ -35,11 +36,10 @@ pub(crate) const REST: Experiment = Experiment {
             says: "under heavy damping a test on pixels per step stops at its first look, with the whole way to go",
             source: "measured on scikit-image 0.26.0: 74.84 to 74.98 of 75",
             judge: |r| {
-                let radius = r.number("γ 20: radius where pixels per step says rest")?;
-                Ok(Finding::new(
-                    radius > 74.0,
-                    format!("radius {radius:.2}, the edge is at 60"),
-                ))
+                judged(
+                    r,
+                    &[above("γ 20: radius where pixels per step says rest", 74.0)],
+                )
             },
         },
         Claim {

@@ -1,5 +1,6 @@
 //! Figures 4.2 to 4.4: from a smoothed signal to a force, in one dimension (report §4.2.1).
 
+use crate::demand::{below, judged, near};
 use crate::draw::{Axis, Color, Figure, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
 use field::REPORT_PASSES;
@@ -86,24 +87,19 @@ pub(crate) const STEP: Experiment = Experiment {
             says: "positive below the edge, negative above it",
             source: "report §4.2.1",
             judge: |r| {
-                let at = r.number("zero of the second derivative")?;
-                let right = r.number("samples with the wrong sign")?;
-                Ok(Finding::new(
-                    right < 0.5 && (at - 50.5).abs() < 1e-9,
-                    format!("no wrong sign within 10 samples; zero at x = {at:.3}"),
-                ))
+                judged(
+                    r,
+                    &[
+                        below("samples with the wrong sign", 0.5),
+                        near("zero of the second derivative", 50.5, 1e-9),
+                    ],
+                )
             },
         },
         Claim {
             says: "the step lies between samples 50 and 51, not at 50",
             source: "D46",
-            judge: |r| {
-                let at = r.number("zero of the second derivative")?;
-                Ok(Finding::new(
-                    (at - 50.5).abs() < 1e-9,
-                    format!("zero at x = {at:.3}"),
-                ))
-            },
+            judge: |r| judged(r, &[near("zero of the second derivative", 50.5, 1e-9)]),
         },
         Claim {
             says: "zero elsewhere, though the program has no δ",
@@ -121,11 +117,13 @@ pub(crate) const STEP: Experiment = Experiment {
             says: "a step leaves no difference between the second derivative and F",
             source: "report §4.2.1",
             judge: |r| {
-                let share = r.number("F against the second derivative; share of the peak")?;
-                Ok(Finding::new(
-                    share < 0.08,
-                    format!("they differ by {:.1} % of the peak", 100.0 * share),
-                ))
+                judged(
+                    r,
+                    &[below(
+                        "F against the second derivative; share of the peak",
+                        0.08,
+                    )],
+                )
             },
         },
     ],

@@ -1,6 +1,7 @@
 //! Figure 4.1: three ways to smooth a signal (report §4.2.1).
 
 use super::signal::{crossing_near, largest_difference, places};
+use crate::demand::{below, judged, near};
 use crate::draw::{Axis, Color, Corner, Figure, Layer, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance};
 use field::REPORT_PASSES;
@@ -23,13 +24,7 @@ pub(crate) const SMOOTHING: Experiment = Experiment {
         Claim {
             says: "the edge stays where it is, between samples 50 and 51",
             source: "report §4.2.1, D46",
-            judge: |r| {
-                let at = r.number("edge of the smoothed step")?;
-                Ok(Finding::new(
-                    (at - 50.5).abs() < 1e-12,
-                    format!("half height at x = {at:.3}"),
-                ))
-            },
+            judge: |r| judged(r, &[near("edge of the smoothed step", 50.5, 1e-12)]),
         },
         Claim {
             says: "it works rather well when the number of iterations is sufficient",
@@ -50,13 +45,7 @@ pub(crate) const SMOOTHING: Experiment = Experiment {
         Claim {
             says: "the Fourier way and the direct way are the same Gaussian",
             source: "report §4.2.1",
-            judge: |r| {
-                let off = r.number("Fourier against direct")?;
-                Ok(Finding::new(
-                    off < 1e-10,
-                    format!("largest difference {off:.1e}"),
-                ))
-            },
+            judge: |r| judged(r, &[below("Fourier against direct", 1e-10)]),
         },
         Claim {
             says: "mirror boundaries keep the sum and make no new extremes",

@@ -1,8 +1,9 @@
 //! Report §5.2: an ellipse turned by a picture that rotates.
 
 use super::motion::{Frames, changed_scene, keep_frames, to_the_end};
+use crate::demand::{judged, less, near};
 use crate::draw::{Axis, Color, Corner, Figure, Layer, Line, Panel};
-use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance};
+use crate::{Artefact, Claim, Experiment, Record, SandboxError, Table, Tolerance};
 use glam::DVec2;
 
 const ID: &str = "sec-5-2-picture";
@@ -30,40 +31,34 @@ pub(crate) const PICTURE: Experiment = Experiment {
             says: "the turning frame follows with next to no deformation, the translating one does not",
             source: "report §5.2",
             judge: |r| {
-                let (turning, still) = (
-                    r.number("turning: largest deformation")?,
-                    r.number("translating: largest deformation")?,
-                );
-                Ok(Finding::new(
-                    turning < 0.1 * still,
-                    format!("{turning:.2} px at most, {still:.1} px in the translating frame"),
-                ))
+                judged(
+                    r,
+                    &[less(
+                        "turning: largest deformation",
+                        0.1,
+                        "translating: largest deformation",
+                    )],
+                )
             },
         },
         Claim {
             says: "so the outline stays right",
             source: "report §5.2",
             judge: |r| {
-                let (turning, still) = (
-                    r.number("turning: largest distance from the border")?,
-                    r.number("translating: largest distance from the border")?,
-                );
-                Ok(Finding::new(
-                    turning < 0.25 * still,
-                    format!("{turning:.2} px off at most, {still:.2} px in the translating frame"),
-                ))
+                judged(
+                    r,
+                    &[less(
+                        "turning: largest distance from the border",
+                        0.25,
+                        "translating: largest distance from the border",
+                    )],
+                )
             },
         },
         Claim {
             says: "after a whole turn it has turned once",
             source: "report §5.2",
-            judge: |r| {
-                let off = r.number("turning: angle behind the picture")?;
-                Ok(Finding::new(
-                    off.abs() < 0.2,
-                    format!("at the end {off:.3} rad behind the picture, as damping drags"),
-                ))
-            },
+            judge: |r| judged(r, &[near("turning: angle behind the picture", 0.0, 0.2)]),
         },
     ],
     run,

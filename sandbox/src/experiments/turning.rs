@@ -1,8 +1,9 @@
 //! Report §5.2: a free spinning body, in a frame that turns with it and in one that does not.
 
 use super::soft::{keep_shots, picture, shots, times};
+use crate::demand::{above, below, judged};
 use crate::draw::{Axis, Color, Corner, Figure, Layer, Line, Panel};
-use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance};
+use crate::{Artefact, Claim, Experiment, Record, SandboxError, Table, Tolerance};
 use elastic::{Material, Topology};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
@@ -27,41 +28,24 @@ pub(crate) const TURNING: Experiment = Experiment {
         Claim {
             says: "in the turning frame angular momentum is kept",
             source: "report §5.2",
-            judge: |r| {
-                let off = r.number("turning: angular momentum off")?;
-                Ok(Finding::new(
-                    off < 1e-9,
-                    format!("off by {off:.1e} of itself over two turns"),
-                ))
-            },
+            judge: |r| judged(r, &[below("turning: angular momentum off", 1e-9)]),
         },
         Claim {
             says: "in the translating frame it is not: the rest shape turns the body back",
             source: "D12",
-            judge: |r| {
-                let least = r.number("translating: least angular momentum")?;
-                Ok(Finding::new(
-                    least < 0.0,
-                    format!("it falls to {least:.2} of what it was"),
-                ))
-            },
+            judge: |r| judged(r, &[below("translating: least angular momentum", 0.0)]),
         },
         Claim {
             says: "only the centrifugal stretch costs elastic energy where the frame turns",
             source: "report §5.2",
             judge: |r| {
-                let (turning, still) = (
-                    r.number("turning: most elastic energy")?,
-                    r.number("translating: most elastic energy")?,
-                );
-                Ok(Finding::new(
-                    turning < 0.1 && still > 0.9,
-                    format!(
-                        "{:.1} % of the energy at most, {:.0} % in the translating frame",
-                        100.0 * turning,
-                        100.0 * still
-                    ),
-                ))
+                judged(
+                    r,
+                    &[
+                        below("turning: most elastic energy", 0.1),
+                        above("translating: most elastic energy", 0.9),
+                    ],
+                )
             },
         },
     ],

@@ -2,6 +2,7 @@
 
 use super::draw::{animation, frame_panel, over_picture, snake_on};
 use super::story::{Story, Truth, share, top, truth_of};
+use crate::demand::{above, below, judged};
 use crate::draw::{Axis, Color, Figure, Layer, Line, Panel};
 use crate::experiments::motion::{Frames, pair};
 use crate::experiments::over_time::over_time;
@@ -26,9 +27,9 @@ pub(crate) const CLOSED: Experiment = Experiment {
             judge: |r| {
                 let (mean, count) = (
                     r.number("mean distance at the end")?,
-                    r.number("nodes outside the boxes at the end")?,
+                    r.told("nodes outside the boxes at the end")?,
                 );
-                let start = r.number("mean distance at the start")?;
+                let start = r.told("mean distance at the start")?;
                 Ok(Finding::new(
                     mean < 2.0,
                     format!(
@@ -41,11 +42,13 @@ pub(crate) const CLOSED: Experiment = Experiment {
             says: "it lets go of the stem too",
             source: "report §4.3",
             judge: |r| {
-                let (start, end) = (r.number("top at the start")?, r.number("top at the end")?);
-                Ok(Finding::new(
-                    start < 8.0 && end > 50.0,
-                    format!("top from y = {start:.1} to {end:.1} px"),
-                ))
+                judged(
+                    r,
+                    &[
+                        below("top at the start", 8.0),
+                        above("top at the end", 50.0),
+                    ],
+                )
             },
         },
         Claim {

@@ -153,7 +153,7 @@ fn curves_on(panel: Panel, frames: &Frames, times: &[f64], closed: bool) -> Pane
     })
 }
 
-/// Many frames over one picture from blue to red, the truth thin.
+/// Many frames over one picture from blue to orange, the truth thin.
 pub(crate) fn all_over(
     record: &Record,
     times: &[f64],

@@ -2,6 +2,7 @@
 
 use super::story::top;
 use super::{LETTERS, MOMENTS, PLACE, noted, strip, tell};
+use crate::demand::{above, below, judged, less};
 use crate::{Claim, Experiment, Finding, SandboxError, Tolerance, real};
 
 /// Figure 4.6: caught.
@@ -15,31 +16,27 @@ pub(crate) const FIRST: Experiment = Experiment {
             says: "at the beginning the top is attracted by a disturbing edge at the top of the image: the tip of the stem",
             source: "report §4.3",
             judge: |r| {
-                let (early, late) = (
-                    r.number("top: highest from t = 16 to 120")?,
-                    r.number("top: lowest from t = 16 to 120")?,
-                );
-                Ok(Finding::new(
-                    early > 3.0 && late < 12.0,
-                    format!(
-                        "the top stays between y = {early:.1} and {late:.1} px for more than 100 units of time; the contour is at 54"
-                    ),
-                ))
+                judged(
+                    r,
+                    &[
+                        above("top: highest from t = 16 to 120", 3.0),
+                        below("top: lowest from t = 16 to 120", 12.0),
+                    ],
+                )
             },
         },
         Claim {
             says: "but the extremities are stuck on the contour of the apple",
             source: "report §4.3",
             judge: |r| {
-                let (head, tail) = (
-                    r.number("head: nodes stuck in a row at d")?,
-                    r.number("tail: nodes stuck in a row at d")?,
-                );
-                let free = r.number("middle: nodes stuck at d")?;
-                Ok(Finding::new(
-                    head > 35.0 && tail > 20.0 && free < 0.5,
-                    format!("at d the first {head} and the last {tail} of 80 nodes, none between"),
-                ))
+                judged(
+                    r,
+                    &[
+                        above("head: nodes stuck in a row at d", 35.0),
+                        above("tail: nodes stuck in a row at d", 20.0),
+                        below("middle: nodes stuck at d", 0.5),
+                    ],
+                )
             },
         },
         Claim {
@@ -159,14 +156,14 @@ pub(crate) const SECOND: Experiment = Experiment {
             says: "the middle is extracted from the neighborhood of the disturbing edge",
             source: "report §4.3",
             judge: |r| {
-                let (e, m) = (r.number("e: top")?, r.number("m: top")?);
-                let fastest = r.number("largest fall of the top within 4 units of time")?;
-                Ok(Finding::new(
-                    e < 12.0 && m > 45.0 && fastest > 3.0,
-                    format!(
-                        "the top falls from y = {e:.1} at e to {m:.1} at m, in jerks of up to {fastest:.1} px in 4 units of time"
-                    ),
-                ))
+                judged(
+                    r,
+                    &[
+                        below("e: top", 12.0),
+                        above("m: top", 45.0),
+                        above("largest fall of the top within 4 units of time", 3.0),
+                    ],
+                )
             },
         },
     ],
@@ -237,7 +234,7 @@ pub(crate) const SECOND: Experiment = Experiment {
             "Figure 4.7  Steps 7 to 12 in the snake's motion",
             6,
             12,
-            "The stuck part has grown to the foot of the stem; the middle slides down the stem and comes off.",
+            "Yellow: the snake; blue: the part within 4 px of the contour. The stuck part has grown to the foot of the stem; the middle slides down the stem and comes off.",
         )
     },
 };
@@ -255,7 +252,7 @@ pub(crate) const THIRD: Experiment = Experiment {
             judge: |r| {
                 let (mean, count) = (
                     r.number("mean distance to the contour at n")?,
-                    r.number("nodes outside the boxes at n")?,
+                    r.told("nodes outside the boxes at n")?,
                 );
                 Ok(Finding::new(
                     mean < 2.0,
@@ -271,7 +268,7 @@ pub(crate) const THIRD: Experiment = Experiment {
             judge: |r| {
                 let (stuck, most) = (
                     r.number("n: stuck")?,
-                    r.number("largest distance to the contour at n")?,
+                    r.told("largest distance to the contour at n")?,
                 );
                 Ok(Finding::new(
                     stuck > 0.98,
@@ -286,19 +283,20 @@ pub(crate) const THIRD: Experiment = Experiment {
             says: "which is its equilibrium",
             source: "report §4.3",
             judge: |r| {
-                let (net, image) = (
-                    r.number("net force at n; mean")?,
-                    r.number("force of the picture at n; mean")?,
-                );
-                let change =
-                    r.number("largest change of a distance in the last 40 units of time")?;
-                Ok(Finding::new(
-                    net < 0.05 * image && change < 0.5,
-                    format!(
-                        "picture and elastic force cancel to {:.1} %; no distance changes by more than {change:.2} px in the last 40 units of time",
-                        100.0 * net / image
-                    ),
-                ))
+                judged(
+                    r,
+                    &[
+                        less(
+                            "net force at n; mean",
+                            0.05,
+                            "force of the picture at n; mean",
+                        ),
+                        below(
+                            "largest change of a distance in the last 40 units of time",
+                            0.5,
+                        ),
+                    ],
+                )
             },
         },
     ],
@@ -350,7 +348,7 @@ pub(crate) const THIRD: Experiment = Experiment {
             "Figure 4.8  The final two steps in the snake's motion",
             12,
             14,
-            "The middle is off the stem, and the snake on the contour.",
+            "Blue: within 4 px of the contour, which is all of it. The middle is off the stem; at the top right the end is folded back on itself.",
         )
     },
 };

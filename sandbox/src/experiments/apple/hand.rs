@@ -1,6 +1,7 @@
 //! A hand that takes a snake off a false edge, and lets go.
 
 use super::story::{Story, Truth};
+use crate::demand::{above, at_most, judged};
 use crate::draw::{Axis, Color, Corner, Figure, Layer, Line, Panel, Picture};
 use crate::experiments::motion::Frames;
 use crate::experiments::motion::{keep_energies, keep_frames, pair};
@@ -58,11 +59,10 @@ pub(crate) const HAND: Experiment = Experiment {
             says: "left alone it ends on the false edge",
             source: "the same run without",
             judge: |r| {
-                let off = r.number("alone: farthest from the contour at the stem")?;
-                Ok(Finding::new(
-                    off > 50.0,
-                    format!("{off:.1} px off the contour, over the tip of the stem"),
-                ))
+                judged(
+                    r,
+                    &[above("alone: farthest from the contour at the stem", 50.0)],
+                )
             },
         },
         Claim {
@@ -84,7 +84,7 @@ pub(crate) const HAND: Experiment = Experiment {
                         far("pushed")?,
                         mean("pulled")?,
                         mean("pushed")?,
-                        mean("alone")?
+                        r.told("alone: mean distance at the end")?
                     ),
                 ))
             },
@@ -93,14 +93,13 @@ pub(crate) const HAND: Experiment = Experiment {
             says: "a stretch that is held meanwhile does not move at all, and goes on when it is let go",
             source: "Snake::hold",
             judge: |r| {
-                let (held, after) = (
-                    r.number("way of the held stretch while held")?,
-                    r.number("way of the held stretch after")?,
-                );
-                Ok(Finding::new(
-                    held <= 0.0 && after > 0.01,
-                    format!("{held} px in 120 s, {after:.2} px after"),
-                ))
+                judged(
+                    r,
+                    &[
+                        at_most("way of the held stretch while held", 0.0),
+                        above("way of the held stretch after", 0.01),
+                    ],
+                )
             },
         },
         Claim {

@@ -3,9 +3,10 @@
 use super::draw::{all_over, animation, height_and_stuck, marked, window};
 use super::story::top;
 use super::{LETTERS, MOMENTS, PLACE, tell};
+use crate::demand::{above, below, judged, less};
 use crate::draw::{Color, Corner, Figure};
 use crate::experiments::over_time::over_time;
-use crate::{Artefact, Body, Claim, Experiment, Finding, Record, SandboxError, Tolerance, real};
+use crate::{Artefact, Body, Claim, Experiment, Record, SandboxError, Tolerance, real};
 
 const ID: &str = "sec-4-3-apple";
 
@@ -20,42 +21,33 @@ pub(crate) const OVERVIEW: Experiment = Experiment {
             says: "the ends stick first: head and tail are on the contour when the top is still held",
             source: "report §4.3",
             judge: |r| {
-                let (ends, top) = (
-                    r.number("ends on the contour for good from")?,
-                    r.number("top on the contour for good from")?,
-                );
-                Ok(Finding::new(
-                    ends < 20.0 && top > 250.0,
-                    format!(
-                        "first and last ten nodes for good from t = {ends:.0}, the top from t = {top:.0}"
-                    ),
-                ))
+                judged(
+                    r,
+                    &[
+                        below("ends on the contour for good from", 20.0),
+                        above("top on the contour for good from", 250.0),
+                    ],
+                )
             },
         },
         Claim {
             says: "the energy of deformation falls when the middle lets go",
             source: "report §4.3",
             judge: |r| {
-                let (held, free) = (
-                    r.number("elastic energy while held (t = 100)")?,
-                    r.number("elastic energy at the end")?,
-                );
-                Ok(Finding::new(
-                    free < 0.6 * held,
-                    format!("from {held:.0} while held to {free:.0} at the end"),
-                ))
+                judged(
+                    r,
+                    &[less(
+                        "elastic energy at the end",
+                        0.6,
+                        "elastic energy while held (t = 100)",
+                    )],
+                )
             },
         },
         Claim {
             says: "it ends within 2 px of the contour drawn by hand, in the mean",
             source: "our aim",
-            judge: |r| {
-                let mean = r.number("mean distance at the end")?;
-                Ok(Finding::new(
-                    mean < 2.0,
-                    format!("{mean:.2} px outside the boxes of what disturbs"),
-                ))
-            },
+            judge: |r| judged(r, &[below("mean distance at the end", 2.0)]),
         },
     ],
     run,

@@ -3,6 +3,7 @@
 use super::PLACE;
 use super::draw::frame_panel;
 use super::story::{Story, Truth, share, top};
+use crate::demand::{above, below, judged};
 use crate::draw::{Color, Corner, Figure, Line};
 use crate::experiments::over_time::over_time;
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance};
@@ -50,7 +51,7 @@ pub(crate) const RULES: Experiment = Experiment {
                     r.number("report's rules; drawn shape: top at the end")?,
                     r.number("report's rules; drawn shape: top moved since t = 200")?,
                 );
-                let stuck = r.number("report's rules; drawn shape: stuck at the end")?;
+                let stuck = r.told("report's rules; drawn shape: stuck at the end")?;
                 Ok(Finding::new(
                     top < 8.0 && moved < 0.2,
                     format!(
@@ -64,31 +65,35 @@ pub(crate) const RULES: Experiment = Experiment {
             says: "because of the natural shape: with corrected rules and the same shape it is held too",
             source: "D11",
             judge: |r| {
-                let (held, free) = (
-                    r.number("corrected rules; drawn shape: top at the end")?,
-                    r.number("corrected rules; shape without the bump: top at the end")?,
-                );
-                Ok(Finding::new(
-                    held < 10.0 && free > 50.0,
-                    format!(
-                        "top at y = {held:.1} with the bump for a shape, at {free:.1} without, all else equal"
-                    ),
-                ))
+                judged(
+                    r,
+                    &[
+                        below("corrected rules; drawn shape: top at the end", 10.0),
+                        above(
+                            "corrected rules; shape without the bump: top at the end",
+                            50.0,
+                        ),
+                    ],
+                )
             },
         },
         Claim {
             says: "the shape alone is not enough: the report's field holds the snake elsewhere",
             source: "D38, D39, D51",
             judge: |r| {
-                let top = r.number("report's rules; shape without the bump: top at the end")?;
-                let mean =
-                    r.number("report's rules; shape without the bump: mean distance at the end")?;
-                Ok(Finding::new(
-                    top < 20.0 && mean > 5.0,
-                    format!(
-                        "top at y = {top:.1}, mean distance {mean:.1} px: smoothed along one axis only, every texture is an edge"
-                    ),
-                ))
+                judged(
+                    r,
+                    &[
+                        below(
+                            "report's rules; shape without the bump: top at the end",
+                            20.0,
+                        ),
+                        above(
+                            "report's rules; shape without the bump: mean distance at the end",
+                            5.0,
+                        ),
+                    ],
+                )
             },
         },
     ],
@@ -120,7 +125,7 @@ fn run() -> Result<Record, SandboxError> {
             format!("{name}: top moved since t = 200"),
             moved,
             "px",
-            tolerance,
+            Tolerance::Relative(0.3),
         );
         record.note(
             format!("{name}: stuck at the end"),
@@ -168,10 +173,8 @@ const CURVES: [&str; 4] = ["curves-1", "curves-2", "curves-3", "curves-4"];
 fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
     let mut panels = Vec::new();
     for ((name, _, _), curves) in CASES.into_iter().zip(CURVES) {
-        let mut one = Record {
-            grids: record.grids.clone(),
-            ..Record::default()
-        };
+        let mut one = Record::default();
+        one.grids.clone_from(&record.grids);
         one.tables
             .extend(record.tables.iter().filter(|t| t.name == "truth").cloned());
         for table in record.tables.iter().filter(|t| t.name == curves) {

@@ -1,5 +1,6 @@
 //! One motion, many bodies: a spring, a mode of a snake, and a snake in a picture.
 
+use crate::demand::{above, judged};
 use crate::draw::{Axis, Color, Corner, Figure, Layer, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
 use elastic::{Material, Topology};
@@ -72,13 +73,7 @@ pub(crate) const FAMILY: Experiment = Experiment {
         Claim {
             says: "a snake in a picture swings though nothing elastic pulls it back",
             source: "errata §7, \"image\"",
-            judge: |r| {
-                let slope = r.number("a snake in a picture: slope of the edge")?;
-                Ok(Finding::new(
-                    slope > 0.0,
-                    format!("κ = {slope:.3} M/T² is its only spring"),
-                ))
-            },
+            judge: |r| judged(r, &[above("a snake in a picture: slope of the edge", 0.0)]),
         },
     ],
     run,

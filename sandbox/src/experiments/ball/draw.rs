@@ -101,7 +101,7 @@ fn over_seconds(
 
 /// The figure of one ball: as the report draws it, at the wall, and its numbers over time.
 pub(crate) fn figure(record: &Record, title: &str) -> Result<Figure, SandboxError> {
-    let mut seen = report_panel(record, "a snapshot every 0.5 s, from blue to red")?;
+    let mut seen = report_panel(record, "a snapshot every 0.5 s, from blue to orange")?;
     seen.share = 1.3;
     let shape = over_seconds(
         record,

@@ -98,8 +98,8 @@ pub(crate) const HARD: Experiment = Experiment {
             judge: |r| {
                 let apart = r.number("centers apart at most")?;
                 let (own, other) = (
-                    r.number("center at the end: x")?,
-                    r.number("rigid ball: center at the end: x")?,
+                    r.told("center at the end: x")?,
+                    r.told("rigid ball: center at the end: x")?,
                 );
                 Ok(Finding::new(
                     apart < 1.0,
@@ -189,8 +189,8 @@ pub(crate) const VERY_HARD: Experiment = Experiment {
             source: "report §2.5",
             judge: |r| {
                 let (own, other) = (
-                    r.number("center at the end: x")?,
-                    r.number("same elasticity: center at the end: x")?,
+                    r.told("center at the end: x")?,
+                    r.told("same elasticity: center at the end: x")?,
                 );
                 let apart = r.number("centers apart at most")?;
                 Ok(Finding::new(

@@ -98,7 +98,7 @@ pub(crate) const SOFT: Experiment = Experiment {
             says: "the ball need not have a constant volume; it is compressible",
             source: "report §2.5",
             judge: |r| {
-                let (least, at) = (r.number("least area")?, r.number("time of the least area")?);
+                let (least, at) = (r.number("least area")?, r.told("time of the least area")?);
                 Ok(Finding::new(
                     least < 0.35,
                     format!("squeezed to {least:.3} of its area at {at:.2} s"),

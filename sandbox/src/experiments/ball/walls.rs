@@ -173,7 +173,7 @@ pub(crate) const FRICTION: Experiment = Experiment {
             source: "D67",
             judge: |r| {
                 let (across, height) = (
-                    r.number("rough: largest deformation in y")?,
+                    r.told("rough: largest deformation in y")?,
                     r.number("rough: height at the end")?,
                 );
                 Ok(Finding::new(
@@ -285,7 +285,7 @@ fn draw_friction(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
     let figure =
         Figure::new("§2.5  Spreading needs friction or a floor", 1000.0).with(420.0, panels);
     Ok(vec![Artefact::figure(
-        "The very soft ball from 1.6 s on, a snapshot every 0.4 s, from blue to red; right: its height.",
+        "The very soft ball from 1.6 s on, a snapshot every 0.4 s, from blue to orange; right: its height.",
         figure,
     )])
 }

@@ -1,6 +1,7 @@
 //! Two edges close together: where the force says they are (D47).
 
 use super::synthetic::{AROUND, OBJECT};
+use crate::demand::{above, below, judged};
 use crate::draw::{Axis, Color, Figure, Layer, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
 use field::{
@@ -123,14 +124,13 @@ pub(crate) const BARS: Experiment = Experiment {
             says: "but with the sign no node is drawn to the other edge",
             source: "theory",
             judge: |r| {
-                let (unsigned, signed) = (
-                    r.number("corrected: zeros that attract; bar of 8 px")?,
-                    r.number("signed edge: zeros that attract; bar of 8 px")?,
-                );
-                Ok(Finding::new(
-                    unsigned > 1.5 && signed < 1.5,
-                    format!("{unsigned} places of rest without the sign, {signed} with it"),
-                ))
+                judged(
+                    r,
+                    &[
+                        above("corrected: zeros that attract; bar of 8 px", 1.5),
+                        below("signed edge: zeros that attract; bar of 8 px", 1.5),
+                    ],
+                )
             },
         },
         Claim {
@@ -154,9 +154,10 @@ pub(crate) const BARS: Experiment = Experiment {
 
 /// How far outside the true edge a force rests, by the table.
 fn outside(record: &Record, kind: &str, width: usize) -> Result<f64, SandboxError> {
-    let points = record.points("bars", "width", kind)?;
-    let found = points.iter().find(|(w, _)| (w - real(width)).abs() < 0.5);
-    Ok(found.map_or(f64::NAN, |point| point.1))
+    let widths = record.told_column("bars", "width")?;
+    let found = widths.iter().zip(record.column("bars", kind)?);
+    let mut found = found.filter(|(w, _)| (*w - real(width)).abs() < 0.5);
+    Ok(found.next().map_or(f64::NAN, |(_, off)| *off))
 }
 
 /// The bar along a row.

@@ -72,9 +72,11 @@ pub(crate) const CAPTURE: Experiment = Experiment {
             source: "[lindeberg98]",
             judge: |r| {
                 let coarse = afar(r, "coarse to fine")?;
-                let several = afar(r, "several scales")?;
+                let fine = afar(r, "corrected")?;
+                let several =
+                    r.told("several scales: lies on the outline from farther than 30 px")?;
                 Ok(Finding::new(
-                    coarse > 0.5,
+                    coarse > 0.5 + fine,
                     format!(
                         "{} of them; all scales at once {}",
                         percent(coarse),
@@ -193,11 +195,13 @@ pub(crate) const CAPTURE: Experiment = Experiment {
                 let inside = r.number("one polarity: lies on the outline, of starts inside")?;
                 let outside = r.number("one polarity: lies on the outline, of starts outside")?;
                 let both = r.number("corrected: lies on the outline, of starts outside")?;
+                let within = r.number("corrected: lies on the outline, of starts inside")?;
                 Ok(Finding::new(
-                    outside < 0.5 * both,
+                    outside < 0.5 * both && (inside - within).abs() < 0.05,
                     format!(
-                        "{} of the starts inside, {} of those outside, which both polarities bring to it from {}",
+                        "{} of the starts inside, with both polarities {}; {} of those outside, with both {}",
                         percent(inside),
+                        percent(within),
                         percent(outside),
                         percent(both)
                     ),
@@ -211,7 +215,7 @@ pub(crate) const CAPTURE: Experiment = Experiment {
                 let share = r.number(
                     "two regions: whole outline from starts whose circle is on the object",
                 )?;
-                let away = r.number(
+                let away = r.told(
                     "two regions: whole outline from starts whose circle does not touch it",
                 )?;
                 Ok(Finding::new(
@@ -343,7 +347,7 @@ fn run() -> Result<Record, SandboxError> {
             format!("{kind}: from around; mean distance of the outline"),
             mean_distance(&truth, &x),
             "px",
-            Tolerance::Absolute(0.2),
+            Tolerance::Relative(0.2),
         );
         let column = |part: fn(&DVec2) -> f64| x.iter().map(part).collect();
         circles = circles

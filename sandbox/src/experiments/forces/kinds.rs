@@ -2,6 +2,7 @@
 
 use super::super::pixels::{arrows, grey, shrunk, signed};
 use super::synthetic::{AROUND, OBJECT, SIZE, u_corners, u_shape};
+use crate::demand::{above, judged};
 use crate::draw::{Color, Figure, Panel, Picture, sequential};
 use crate::{
     Artefact, Body, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real,
@@ -133,11 +134,13 @@ pub(crate) const FIELDS: Experiment = Experiment {
             says: "the corner force is strong at the eight corners only",
             source: "theory",
             judge: |r| {
-                let share = r.number("corners: part of the force within 15 px of a corner")?;
-                Ok(Finding::new(
-                    share > 0.95,
-                    format!("{:.1} % of it lies within 15 px of them", 100.0 * share),
-                ))
+                judged(
+                    r,
+                    &[above(
+                        "corners: part of the force within 15 px of a corner",
+                        0.95,
+                    )],
+                )
             },
         },
         Claim {
@@ -251,7 +254,7 @@ fn measure(record: &mut Record, name: &str, field: &ForceField) {
         format!("{name}: curl"),
         curl(field),
         "of the slope",
-        Tolerance::Absolute(1e-4),
+        Tolerance::Absolute(1e-5),
     );
     if name == "corners" {
         let corners = u_corners();
@@ -423,7 +426,7 @@ fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
     Ok(vec![
         Artefact::figure(
             "The U. For each kind from above: arrows, as long as the root of the force; direction as color, pale where \
-             the force is weak; strength, dark where it is large. Two regions: orange, the circle would grow; blue, it \
+             the force is weak; strength, dark where it is large (the pull of distance is 1 everywhere, but where two edges are equally near). Two regions: orange, the circle would grow; blue, it \
              would shrink.",
             page(record, "U", "§4.2  Kinds of field on a U", (16, 2))?,
         ),

@@ -3,6 +3,7 @@
 
 mod bars;
 mod capture;
+mod fitted;
 mod kinds;
 mod noise;
 mod reach;
@@ -11,6 +12,7 @@ mod synthetic;
 
 pub(crate) use bars::BARS;
 pub(crate) use capture::CAPTURE;
+pub(crate) use fitted::FITTED;
 pub(crate) use kinds::FIELDS;
 pub(crate) use noise::NOISE;
 pub(crate) use rotation::ROTATION;

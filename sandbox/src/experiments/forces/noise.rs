@@ -407,10 +407,12 @@ fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
     );
     let colors = [Color::RED, Color::BLUE, Color::PURPLE];
     for ((sigma, name), color) in SIGMAS.into_iter().zip(colors) {
+        let theory = Line::new(curve(&|ratio| point_error(sigma, ratio), 1.7, 55.0), color);
         ratios = ratios
             .with(
-                Line::new(curve(&|ratio| point_error(sigma, ratio), 1.7, 55.0), color)
-                    .weighing(0.7),
+                theory
+                    .weighing(0.7)
+                    .named(format!("theory of a point, {name} px")),
             )
             .with(dots(
                 record.points("ratios", "ratio", name)?,

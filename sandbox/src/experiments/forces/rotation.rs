@@ -1,6 +1,7 @@
 //! One edge, turned: does the force turn with it?
 
 use super::synthetic::{AROUND, OBJECT, covered};
+use crate::demand::{above, below, judged};
 use crate::draw::{Axis, Color, Corner, Figure, Layer, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
 use field::{
@@ -33,28 +34,26 @@ pub(crate) const ROTATION: Experiment = Experiment {
             says: "turned by 45°, the report's force has another strength; the corrected one keeps its own",
             source: "D38, D39",
             judge: |r| {
-                let (report, corrected) = (
-                    r.number("report: strength; largest over least")?,
-                    r.number("corrected: strength; largest over least")?,
-                );
-                Ok(Finding::new(
-                    report > 1.2 && corrected < 1.06,
-                    format!("largest over least {report:.2} and {corrected:.3}"),
-                ))
+                judged(
+                    r,
+                    &[
+                        above("report: strength; largest over least", 1.2),
+                        below("corrected: strength; largest over least", 1.06),
+                    ],
+                )
             },
         },
         Claim {
             says: "the report's force pulls askew; the corrected one across the edge",
             source: "D39",
             judge: |r| {
-                let (report, corrected) = (
-                    r.number("report: direction; largest error")?,
-                    r.number("corrected: direction; largest error")?,
-                );
-                Ok(Finding::new(
-                    report > 10.0 && corrected < 2.0,
-                    format!("off by up to {report:.1}° and {corrected:.2}°"),
-                ))
+                judged(
+                    r,
+                    &[
+                        above("report: direction; largest error", 10.0),
+                        below("corrected: direction; largest error", 2.0),
+                    ],
+                )
             },
         },
         Claim {

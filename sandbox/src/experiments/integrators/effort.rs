@@ -1,6 +1,6 @@
 //! What a scheme needs for how much error: forces counted, time taken, distance from the truth.
 
-use super::trial::Trial;
+use super::trial::{Care, Trial};
 use glam::DVec2;
 use integrator::{Fault, Scheme, Start, System, Wrapped};
 use std::time::Instant;
@@ -110,7 +110,7 @@ pub fn effort(trial: &mut Trial, scheme: Scheme, steps: u64) -> Option<Effort> {
             stepping: best.stepping.min(now.stepping),
             ..now
         }));
-        if begun.elapsed().as_secs_f64() > 0.02 {
+        if trial.care == Care::Counted || begun.elapsed().as_secs_f64() > 0.02 {
             break;
         }
     }
@@ -155,6 +155,12 @@ fn once(trial: &mut Trial, scheme: Scheme, steps: u64) -> Option<Effort> {
     })
 }
 
+/// The most steps of a run whose forces are only counted.
+const COUNTED_MOST: u64 = 100_000;
+
+/// The smallest error that any claim asks for. px.
+const FINEST: f64 = 1e-6;
+
 /// Runs of a scheme from the coarsest that is stable up to where nothing is gained, or time runs out.
 pub fn scan(trial: &mut Trial, scheme: Scheme) -> Vec<Effort> {
     if matches!(scheme, Scheme::DormandPrince { .. }) {
@@ -166,14 +172,21 @@ pub fn scan(trial: &mut Trial, scheme: Scheme) -> Vec<Effort> {
     }
     let mut out: Vec<Effort> = Vec::new();
     let mut steps = coarsest(trial, scheme);
-    while steps < 400_000 {
+    let counted = trial.care == Care::Counted;
+    let most = if counted { COUNTED_MOST } else { 400_000 };
+    while steps < most {
         if let Some(now) = effort(trial, scheme, steps) {
             let gained = out.last().is_none_or(|last| now.error < 0.9 * last.error);
             // a blow-up in the making is no measure of anything
             if now.error < 1e3 {
                 out.push(now);
             }
-            if now.error < 1e-11 || now.seconds > 0.6 || !gained && now.error < 1e-8 {
+            let enough = if counted {
+                now.error <= FINEST
+            } else {
+                now.error < 1e-11 || now.seconds > 0.6 || !gained && now.error < 1e-8
+            };
+            if enough {
                 break;
             }
         }

@@ -12,11 +12,52 @@ pub(super) fn fewer(
 ) -> Result<Finding, SandboxError> {
     let forces = |name: &str| record.number(&format!("{name}: forces to {target}"));
     let (own, other) = (forces(winner)?, forces(loser)?);
-    let holds = own < other || own.is_finite() && other.is_nan();
     Ok(Finding::new(
-        holds,
+        own < other,
         format!("{} forces against {}", words(own), words(other)),
     ))
+}
+
+/// Whether one scheme asks for fewer forces than every other.
+pub(super) fn fewest_of_all(
+    record: &Record,
+    winner: &str,
+    target: &str,
+) -> Result<Finding, SandboxError> {
+    let forces = |name: &str| record.number(&format!("{name}: forces to {target}"));
+    let own = forces(winner)?;
+    let mut next = ("none", f64::INFINITY);
+    for scheme in schemes().filter(|scheme| scheme.name() != winner) {
+        let other = forces(scheme.name())?;
+        if other < next.1 {
+            next = (scheme.name(), other);
+        }
+    }
+    let found = format!(
+        "{} forces; the next is {} with {}",
+        words(own),
+        next.0,
+        words(next.1)
+    );
+    Ok(Finding::new(own < next.1, found))
+}
+
+/// Whether one scheme takes fewer steps than each of some others.
+pub(super) fn fewer_steps(
+    record: &Record,
+    winner: &str,
+    losers: &[&str],
+    target: &str,
+) -> Result<Finding, SandboxError> {
+    let steps = |name: &str| record.number(&format!("{name}: steps to {target}"));
+    let own = steps(winner)?;
+    let (mut holds, mut found) = (own.is_finite(), format!("{} steps", words(own)));
+    for loser in losers {
+        let other = steps(loser)?;
+        holds &= own < other;
+        found += &format!("; {loser} {}", words(other));
+    }
+    Ok(Finding::new(holds, found))
 }
 
 fn words(count: f64) -> String {
@@ -32,12 +73,16 @@ pub(super) fn share_of_report(record: &Record, share: f64) -> Result<Finding, Sa
     let report = record.number("report: steps at its largest stable step")?;
     let mut best = ("none", f64::INFINITY);
     for scheme in schemes().filter(|scheme| scheme.parameter().is_none() || scheme.order() == 2) {
-        let steps = record.number(&format!("{}: steps to 1e-3", scheme.name()))?;
+        let steps = record.told(&format!("{}: steps to 1e-3", scheme.name()))?;
         if steps < best.1 {
             best = (scheme.name(), steps);
         }
     }
-    let (name, steps) = best;
+    let name = best.0;
+    if best.1.is_infinite() {
+        return Ok(Finding::new(false, "no scheme gets there"));
+    }
+    let steps = record.number(&format!("{name}: steps to 1e-3"))?;
     let found = format!(
         "{name} in {steps} of {report} steps, 1/{:.0}",
         report / steps

@@ -21,6 +21,28 @@ pub struct Trial {
     pub until: f64,
     /// Where it should be, after these shares of the time; the last is the end.
     pub truth: Vec<(f64, Vec<DVec2>)>,
+    /// What is wanted of its runs.
+    pub care: Care,
+}
+
+/// What is wanted of the runs of a trial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Care {
+    /// Forces and times: each run is repeated for its least time, as far as errors fall.
+    Timed,
+    /// Forces only, up to an error of 1e-6 px: one run each, the same numbers on every machine.
+    Counted,
+}
+
+impl Trial {
+    /// The same trial, of which only forces are counted.
+    #[must_use]
+    pub fn counted(self) -> Self {
+        Self {
+            care: Care::Counted,
+            ..self
+        }
+    }
 }
 
 impl std::fmt::Debug for Trial {
@@ -70,6 +92,7 @@ pub fn ring(ratio: f64, gravity: f64) -> Result<Trial, SandboxError> {
         start,
         until,
         truth,
+        care: Care::Timed,
     })
 }
 
@@ -130,6 +153,7 @@ fn referred(
         start,
         until,
         truth,
+        care: Care::Timed,
     })
 }
 

@@ -1,6 +1,7 @@
 //! Two cells that share a border, against Young's equation.
 
 use super::course::{crowd_of, keep_shots, picture, shots, times};
+use crate::demand::{above, judged};
 use crate::draw::{Axis, Color, Figure, Layer, Line, Panel};
 use crate::experiments::motion::changed_scene;
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
@@ -69,13 +70,7 @@ pub(crate) const CELLS: Experiment = Experiment {
         Claim {
             says: "without adhesion they touch and no more",
             source: "the same run without",
-            judge: |r| {
-                let apart = r.number("centers without adhesion")?;
-                Ok(Finding::new(
-                    apart > 6.0,
-                    format!("centers {apart:.2} px apart, radii 3 px"),
-                ))
-            },
+            judge: |r| judged(r, &[above("centers without adhesion", 6.0)]),
         },
     ],
     run,

@@ -136,7 +136,7 @@ impl Course {
             gap,
         );
         let deep = format!("{name}: deepest overlap");
-        record.note(deep, self.deepest, "px", Tolerance::Absolute(0.1));
+        record.note(deep, self.deepest, "px", Tolerance::Relative(0.1));
         record.note(
             format!("{name}: greatest speed"),
             self.fastest,

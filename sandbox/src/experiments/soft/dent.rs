@@ -1,6 +1,7 @@
 //! A bouncing ring that dents for good.
 
 use super::course::{account, crowd_of, picture, shots, times, wall, watch};
+use crate::demand::{above, judged, less, near};
 use crate::draw::{Axis, Color, Figure, Line, Panel};
 use crate::experiments::motion::changed_scene;
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance};
@@ -20,28 +21,27 @@ pub(crate) const DENT: Experiment = Experiment {
             says: "the shape at rest is no circle any more",
             source: "plastic flow",
             judge: |r| {
-                let (kept, elastic) = (
-                    r.number("plastic: width over height of the rest shape")?,
-                    r.number("elastic: width over height of the rest shape")?,
-                );
-                Ok(Finding::new(
-                    kept > 1.1 && (elastic - 1.0).abs() < 1e-12,
-                    format!("width over height {kept:.3}, of the elastic ring {elastic:.3}"),
-                ))
+                judged(
+                    r,
+                    &[
+                        above("plastic: width over height of the rest shape", 1.1),
+                        near("elastic: width over height of the rest shape", 1.0, 1e-12),
+                    ],
+                )
             },
         },
         Claim {
             says: "denting takes energy from the bounce",
             source: "plastic flow",
             judge: |r| {
-                let (dented, elastic) = (
-                    r.number("plastic: height of the first bounce")?,
-                    r.number("elastic: height of the first bounce")?,
-                );
-                Ok(Finding::new(
-                    dented < 0.9 * elastic,
-                    format!("it rises to {dented:.2} px, the elastic ring to {elastic:.2} px"),
-                ))
+                judged(
+                    r,
+                    &[less(
+                        "plastic: height of the first bounce",
+                        0.9,
+                        "elastic: height of the first bounce",
+                    )],
+                )
             },
         },
         Claim {

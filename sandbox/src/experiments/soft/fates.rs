@@ -1,6 +1,7 @@
 //! Two become one, one becomes two, one becomes none.
 
 use super::course::{crowd_of, gap, keep_shots, shots};
+use crate::demand::{below, judged};
 use crate::draw::{Axis, Color, Corner, Figure, Line, Panel, Picture};
 use crate::experiments::motion::changed_scene;
 use crate::experiments::pixels::grey;
@@ -43,9 +44,9 @@ pub(crate) const FATES: Experiment = Experiment {
                     as_many && most < 2.0,
                     format!(
                         "two merged at t = {:.1}; the waist parted at its ends from {:.1} on, and the scrap between vanished; the fourth had at {:.1}; no node of the three left is farther than {most:.1} px from its disc's border",
-                        of("time of merged")?,
-                        of("time of split")?,
-                        of("time of vanished")?
+                        r.told("time of merged")?,
+                        r.told("time of split")?,
+                        r.told("time of vanished")?
                     ),
                 ))
             },
@@ -56,15 +57,13 @@ pub(crate) const FATES: Experiment = Experiment {
             judge: |r| {
                 let (crossings, least) =
                     (r.number("kept: crossings")?, r.number("kept: least area")?);
-                let (alone, flipped) = (
-                    r.number("alone: crossings")?,
-                    r.number("alone: least area")?,
-                );
+                let (alone, flipped) =
+                    (r.number("alone: crossings")?, r.told("alone: least area")?);
                 Ok(Finding::new(
                     crossings < 0.5 && least > 0.0 && alone > 0.0,
                     format!(
                         "{crossings} crossings in {:.0} outlines, least area {least:.1} px²; left alone up to {alone:.0} at once and {flipped:.1} px²",
-                        r.number("outlines looked at")?
+                        r.told("outlines looked at")?
                     ),
                 ))
             },
@@ -72,13 +71,7 @@ pub(crate) const FATES: Experiment = Experiment {
         Claim {
             says: "the account closes over all of it",
             source: "the ledger of a crowd",
-            judge: |r| {
-                let off = r.number("gap of the account")?;
-                Ok(Finding::new(
-                    off < 1e-9,
-                    format!("{off:.0e} of its largest term"),
-                ))
-            },
+            judge: |r| judged(r, &[below("gap of the account", 1e-9)]),
         },
     ],
     run,
@@ -149,7 +142,7 @@ fn run() -> Result<Record, SandboxError> {
             format!("{name}: crossings"),
             real(most),
             "",
-            Tolerance::Absolute(if name == "kept" { 0.0 } else { 40.0 }),
+            Tolerance::Absolute(if name == "kept" { 0.0 } else { 4.0 }),
         );
         record.note(
             format!("{name}: least area"),
@@ -162,7 +155,7 @@ fn run() -> Result<Record, SandboxError> {
                 "outlines looked at",
                 real(outlines),
                 "",
-                Tolerance::Absolute(200.0),
+                Tolerance::Absolute(10.0),
             );
             record.note(
                 "gap of the account",

@@ -1,6 +1,7 @@
 //! A ball through a funnel of two taut strings.
 
 use super::course::{Course, account, crowd_of, picture, shots, times, wall, watch};
+use crate::demand::{above, below, judged};
 use crate::draw::{Color, Figure, Panel};
 use crate::experiments::motion::changed_scene;
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Tolerance};
@@ -24,20 +25,16 @@ pub(crate) const FUNNEL: Experiment = Experiment {
             says: "the soft ball passes an opening narrower than itself",
             source: "the scene funnel",
             judge: |r| {
-                let (y, part) = (r.number("soft: center at the end")?, r.number("opening")?);
-                Ok(Finding::new(
-                    y < 4.0 && part < 1.0,
-                    format!("it ends at {y:.2} px; the opening is {part:.2} of its width"),
-                ))
+                judged(
+                    r,
+                    &[below("soft: center at the end", 4.0), below("opening", 1.0)],
+                )
             },
         },
         Claim {
             says: "the same ball, eight times as hard, stays in it",
             source: "the same run with another",
-            judge: |r| {
-                let y = r.number("hard: center at the end")?;
-                Ok(Finding::new(y > 7.0, format!("it ends at {y:.2} px")))
-            },
+            judge: |r| judged(r, &[above("hard: center at the end", 7.0)]),
         },
         Claim {
             says: "overlap stays below the stop and the way of a step",

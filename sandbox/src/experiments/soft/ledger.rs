@@ -29,9 +29,13 @@ pub(crate) const LEDGER: Experiment = Experiment {
             says: "on every scene the sum closes to what rounding adds up to, under either scheme and all rules",
             source: "algebra of the scheme",
             judge: |r| {
-                let scenes = scenes(r)?;
-                let fine = scenes.iter().filter(|s| s.gap <= s.allowed).count();
-                let worst = worst(&scenes, |_| true);
+                let scenes = scenes(r, |_| true)?;
+                let mut fine = 0;
+                for scene in &scenes {
+                    let allowed = r.number(&format!("allowed: {}", scene.name))?;
+                    fine += usize::from(scene.gap <= allowed);
+                }
+                let worst = worst(&scenes);
                 Ok(Finding::new(
                     fine == scenes.len() && fine > 0,
                     format!(
@@ -47,7 +51,7 @@ pub(crate) const LEDGER: Experiment = Experiment {
             says: "snakes that meet, rub and adhere, and nodes that enter a spring within a step, are no exception",
             source: "work of contacts along the way of each step",
             judge: |r| {
-                let worst = worst(&scenes(r)?, |kind| kind > FREE);
+                let worst = worst(&scenes(r, |kind| kind > FREE)?);
                 Ok(Finding::new(
                     worst.1 < 1e-9,
                     format!("most on {}: {:.0e}", worst.0, worst.1),
@@ -96,29 +100,31 @@ struct Found {
     name: String,
     gap: f64,
     allowed: f64,
-    kind: f64,
 }
 
-fn scenes(r: &Record) -> Result<Vec<Found>, SandboxError> {
+/// The scenes of some kinds.
+fn scenes(r: &Record, of_kind: fn(f64) -> bool) -> Result<Vec<Found>, SandboxError> {
     let names = r
         .numbers
         .iter()
         .filter_map(|n| n.name.strip_prefix("gap: "));
-    names
-        .map(|name| {
-            Ok(Found {
+    let mut out = Vec::new();
+    for name in names {
+        // a label, not a measurement
+        let kind = r.told(&format!("kind: {name}"))?;
+        if of_kind(kind) {
+            out.push(Found {
                 name: name.to_owned(),
                 gap: r.number(&format!("gap: {name}"))?,
-                allowed: r.number(&format!("allowed: {name}"))?,
-                kind: r.number(&format!("kind: {name}"))?,
-            })
-        })
-        .collect()
+                allowed: r.told(&format!("allowed: {name}"))?,
+            });
+        }
+    }
+    Ok(out)
 }
 
-fn worst(scenes: &[Found], of_kind: impl Fn(f64) -> bool) -> (String, f64) {
-    let of = scenes.iter().filter(|s| of_kind(s.kind));
-    let worst = of.max_by(|a, b| a.gap.total_cmp(&b.gap));
+fn worst(scenes: &[Found]) -> (String, f64) {
+    let worst = scenes.iter().max_by(|a, b| a.gap.total_cmp(&b.gap));
     worst.map_or(("none".to_owned(), f64::NAN), |s| (s.name.clone(), s.gap))
 }
 
@@ -264,7 +270,7 @@ fn run() -> Result<Record, SandboxError> {
 }
 
 fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
-    let scenes = scenes(record)?;
+    let scenes = scenes(record, |_| true)?;
     let rows = real(scenes.len());
     let mut panel = Panel::new(
         "how far the sum strays, as a share of the largest term",

@@ -1,6 +1,7 @@
 //! Nodes spaced anew, outlines that divide, and results that do not hang on the number of nodes.
 
 use super::course::{keep_shots, picture, shots, times, watch};
+use crate::demand::{above, below, judged, near};
 use crate::draw::{Axis, Color, Figure, Layer, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Tolerance, real};
 use elastic::{Material, Topology};
@@ -40,32 +41,28 @@ pub(crate) const RESPACING: Experiment = Experiment {
             says: "a curve that grows to twice its size keeps mass, momentum and angular momentum when it gets new nodes",
             source: "the plan of an outline",
             judge: |r| {
-                let (m, p, l) = (
-                    r.number("mass off")?,
-                    r.number("momentum off")?,
-                    r.number("angular momentum off")?,
-                );
-                Ok(Finding::new(
-                    m < 1e-12 && p < 1e-9 && l < 1e-6,
-                    format!(
-                        "off by {m:.0e}, {p:.0e} and {l:.0e} of themselves, from 30 nodes to {:.0}",
-                        r.number("nodes at the end")?
-                    ),
-                ))
+                judged(
+                    r,
+                    &[
+                        below("mass off", 1e-12),
+                        below("momentum off", 1e-9),
+                        below("angular momentum off", 1e-6),
+                    ],
+                )
             },
         },
         Claim {
             says: "an outline pinched through itself becomes two, each simple and of positive area",
             source: "kept in order",
             judge: |r| {
-                let (pieces, least) = (r.number("pieces")?, r.number("least area of a piece")?);
-                let without = r.number("curves without upkeep")?;
-                Ok(Finding::new(
-                    (pieces - 2.0).abs() < 0.5 && least > 0.5 && without < 1.5,
-                    format!(
-                        "{pieces} pieces, the smaller of {least:.1} px²; left alone {without} curve that crosses itself"
-                    ),
-                ))
+                judged(
+                    r,
+                    &[
+                        near("pieces", 2.0, 0.5),
+                        above("least area of a piece", 0.5),
+                        below("curves without upkeep", 1.5),
+                    ],
+                )
             },
         },
     ],
@@ -253,7 +250,7 @@ fn run() -> Result<Record, SandboxError> {
             format!("{n} nodes: farthest from 400 nodes"),
             off,
             "px",
-            Tolerance::Absolute(1e-3),
+            Tolerance::Relative(0.1),
         );
     }
     let kept: Vec<(f64, usize, bool, Vec<DVec2>)> = ends

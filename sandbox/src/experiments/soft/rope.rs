@@ -1,6 +1,7 @@
 //! A rubber rope with a pinned end, against the string's own solution.
 
 use super::course::{account, crowd_of, keep_shots, picture, shots, times, watch};
+use crate::demand::{above, at_most, below, judged};
 use crate::draw::{Axis, Color, Figure, Layer, Line, Panel};
 use crate::experiments::motion::changed_scene;
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
@@ -42,26 +43,19 @@ pub(crate) const ROPE: Experiment = Experiment {
             says: "the pinned end does not move, and the account closes to rounding",
             source: "the ledger",
             judge: |r| {
-                let (gap, moved) = (
-                    r.number("rope: gap of the account")?,
-                    r.number("pin moved")?,
-                );
-                Ok(Finding::new(
-                    gap < 1e-9 && moved <= 0.0,
-                    format!("gap {gap:.0e}, moved by {moved}"),
-                ))
+                judged(
+                    r,
+                    &[
+                        below("rope: gap of the account", 1e-9),
+                        at_most("pin moved", 0.0),
+                    ],
+                )
             },
         },
         Claim {
             says: "without the pin it shrinks and falls",
             source: "the same run without",
-            judge: |r| {
-                let fall = r.number("fall without the pin in 6 s")?;
-                Ok(Finding::new(
-                    fall > 20.0,
-                    format!("its head is {fall:.1} px lower after 6 s"),
-                ))
-            },
+            judge: |r| judged(r, &[above("fall without the pin in 6 s", 20.0)]),
         },
     ],
     run,
@@ -232,7 +226,7 @@ fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
         .with(330.0, row)
         .with(270.0, vec![swing, kept]);
     Ok(vec![Artefact::figure(
-        "Above: from blue to red. Below: the free end against the solution of the wave equation, and where the energy goes.",
+        "Above: from blue to orange. Below: the free end against the solution of the wave equation, and where the energy goes.",
         figure,
     )])
 }

@@ -1,6 +1,7 @@
 //! Twenty balls on a rough slope: friction that sticks, and Coulomb's number where it slips.
 
 use super::course::{crowd_of, picture, shots, times, wall, watch};
+use crate::demand::{above, below, judged};
 use crate::draw::{Axis, Color, Figure, Layer, Line, Panel};
 use crate::experiments::motion::changed_scene;
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance};
@@ -24,21 +25,12 @@ pub(crate) const SLOPE: Experiment = Experiment {
         Claim {
             says: "on 20° nobody moves once they stand",
             source: "Coulomb's friction",
-            judge: |r| {
-                let way = r.number("way in 12 s on 20°")?;
-                Ok(Finding::new(
-                    way < 1e-6,
-                    format!("the farthest of twenty by {way:.1e} px in 12 s"),
-                ))
-            },
+            judge: |r| judged(r, &[below("way in 12 s on 20°", 1e-6)]),
         },
         Claim {
             says: "with friction from slip alone they creep",
             source: "the same run without stick",
-            judge: |r| {
-                let way = r.number("the same without stick")?;
-                Ok(Finding::new(way > 0.01, format!("by {way:.3} px in 12 s")))
-            },
+            judge: |r| judged(r, &[above("the same without stick", 0.01)]),
         },
         Claim {
             says: "above 26.6° they slide at g (sin α − η cos α), to a hundredth",

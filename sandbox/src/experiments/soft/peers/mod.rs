@@ -270,7 +270,7 @@ fn cases(record: &mut Record) -> Result<(), SandboxError> {
                 format!("{name}: deepest overlap"),
                 own.deepest,
                 "px",
-                Tolerance::Absolute(0.05),
+                Tolerance::Relative(0.1),
             );
             for ((nodes, share), what) in [(1, 1.0), (2, 1.0), (0, 0.5)].into_iter().zip(OTHERS) {
                 let (_, other) = read(case, method, nodes, share)?;
