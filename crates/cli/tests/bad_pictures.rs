@@ -269,11 +269,7 @@ fn numbers_of_a_fit_that_make_no_sense_are_refused_by_their_flag() {
     contour(CIRCLE, &["--sigma", "0"], &["--sigma", "above 0"]);
     contour(CIRCLE, &["--sigma", "1e4000"], &["--sigma"]);
     contour(CIRCLE, &["--sigma", "9999999"], &["--sigma", "at most"]);
-    contour(
-        CIRCLE,
-        &["--dt", "100"],
-        &["--dt", "largest stable step is"],
-    );
+    contour(CIRCLE, &["--dt", "100"], &["--dt", "largest stable step"]);
     contour(
         CIRCLE,
         &["--steps", "99999999999999"],

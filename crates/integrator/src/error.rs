@@ -14,8 +14,7 @@ pub enum SchemeError {
     },
     /// A step with which the scheme blows up.
     #[error(
-        "a step of {} is too large for {scheme}: the largest stable step is {}; take a \
-         smaller one, force it, or use a scheme without a limit, such as newmark",
+        "a step of {} is too large for {scheme}: must be at most {}, the largest stable step",
         number(*dt), number(*limit)
     )]
     AboveLimit {

@@ -161,8 +161,14 @@ impl Fit {
         let snake = Snake::new(body, world).map_err(unfit)?;
         // its steps are as long as the picture allows, whatever the spacing of the nodes and their stiffness
         let scheme = Scheme::Sbdf2;
-        let limit = Certificate::limit(&snake, scheme).map_or(MOST_DT, |limit| 0.5 * limit.dt);
-        let dt = self.dt.unwrap_or(limit.min(MOST_DT));
+        let limit = Certificate::limit(&snake, scheme).map_or(f64::INFINITY, |limit| limit.dt);
+        if let Some(dt) = self.dt.filter(|dt| *dt > limit) {
+            let message = format!(
+                "a step of {dt} is too large: must be at most {limit}, the largest stable step in this picture"
+            );
+            return Err(SceneError::key("--dt", message));
+        }
+        let dt = self.dt.unwrap_or((0.5 * limit).min(MOST_DT));
         Ok(Scene {
             name: "fit".to_owned(),
             title: "a contour fitted to a picture".to_owned(),
@@ -182,7 +188,14 @@ impl Fit {
                 dt,
                 tolerance: None,
                 each: false,
-                until: Until::at_rest(Rest::default(), self.steps),
+                // nodes may slide along the outline for as long as they like
+                until: Until::at_rest(
+                    Rest {
+                        shape: true,
+                        ..Rest::default()
+                    },
+                    self.steps,
+                ),
                 start_rule: Start::SecondOrder,
                 force: false,
                 recording: Recording::default(),

@@ -115,12 +115,10 @@ impl Plan {
     pub fn set_step(&mut self, dt: f64) {
         let ratio = self.dt / dt;
         let scaled = |steps: u64| (steps as f64 * ratio).round() as u64;
-        if self.tolerance.is_none() {
-            self.until.steps = scaled(self.until.steps);
-            self.recording.every = self.recording.every.map(|every| scaled(every).max(1));
-            for step in &mut self.recording.steps {
-                *step = scaled(*step);
-            }
+        self.until.steps = scaled(self.until.steps);
+        self.recording.every = self.recording.every.map(|every| scaled(every).max(1));
+        for step in &mut self.recording.steps {
+            *step = scaled(*step);
         }
         (self.dt, self.tolerance) = (dt, None);
     }

@@ -24,6 +24,8 @@ pub struct Rest {
     /// Way of a node in the last sixth of the run against the size of the curve (half the diagonal of
     /// its box at the start).
     pub travel: f64,
+    /// Whether only the shape counts: the way of a node across the curve, and not along it.
+    pub shape: bool,
 }
 
 impl Default for Rest {
@@ -33,6 +35,7 @@ impl Default for Rest {
         Self {
             balance: 1e-3,
             travel: 1e-4,
+            shape: false,
         }
     }
 }
@@ -80,6 +83,7 @@ impl Verdict {
 #[derive(Debug)]
 pub(crate) struct Watch {
     rest: Rest,
+    closed: bool,
     size: f64,
     /// Signed area at the start of a closed curve that enclosed something.
     area: Option<f64>,
@@ -110,6 +114,7 @@ impl Watch {
         let n = state.len();
         let mut watch = Self {
             rest,
+            closed: snake.body().topology.is_closed(),
             size: size(&state.x),
             area: enclosed(snake, &state.x),
             begin: state.t,
@@ -184,7 +189,12 @@ impl Watch {
         let net = self.forces(snake, state, push);
         let speed = self.speed(state);
         let most = self.rest.travel * self.size;
-        let slow = self.far <= most && speed * window <= most;
+        let far = if self.rest.shape {
+            self.way(state, &self.mark)
+        } else {
+            self.far
+        };
+        let slow = far <= most && speed * window <= most;
         let calm = self.left(snake, state, most) <= CALM * self.liveliest;
         if slow
             && calm
@@ -224,13 +234,29 @@ impl Watch {
         }
     }
 
+    /// The longest way of a node from where it was; across the curve, if only the shape counts.
+    fn way(&self, state: &State, from: &[DVec2]) -> f64 {
+        let n = state.len();
+        let ways = state.x.iter().zip(from).enumerate().map(|(i, (x, from))| {
+            let way = *x - *from;
+            if !self.rest.shape {
+                return way.length();
+            }
+            let (before, after) = if self.closed {
+                ((i + n - 1) % n, (i + 1) % n)
+            } else {
+                (i.saturating_sub(1), (i + 1).min(n - 1))
+            };
+            let along = (state.x[after] - state.x[before]).normalize_or_zero();
+            (way - along * way.dot(along)).length()
+        });
+        ways.fold(0.0, f64::max)
+    }
+
     /// The largest speed of a node over the last stretch of the window.
     fn speed(&self, state: &State) -> f64 {
         match &self.late {
-            Some((from, t)) if state.t > *t => {
-                let ways = state.x.iter().zip(from).map(|(x, from)| x.distance(*from));
-                ways.fold(0.0, f64::max) / (state.t - t)
-            }
+            Some((from, t)) if state.t > *t => self.way(state, from) / (state.t - t),
             _ => state.v.iter().map(|v| v.length()).fold(0.0, f64::max),
         }
     }

@@ -129,6 +129,7 @@ fn rest(text: &RestText) -> Result<Rest, SceneError> {
     Ok(Rest {
         balance: number::above_zero("run.rest.balance", balance.unwrap_or(usual.balance))?,
         travel: number::above_zero("run.rest.travel", travel.unwrap_or(usual.travel))?,
+        shape: text.shape,
     })
 }
 

@@ -412,6 +412,8 @@ pub(crate) struct ImpactText {
 pub(crate) struct RestText {
     pub balance: Option<f64>,
     pub travel: Option<f64>,
+    #[serde(default)]
+    pub shape: bool,
 }
 
 #[derive(Debug, Clone, Deserialize)]
