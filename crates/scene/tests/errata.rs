@@ -6,8 +6,8 @@ use std::path::Path;
 
 use scene::Scene;
 
-const STRIP: &str = "title = \"a strip\"\n[snake]\nnodes = 6\ntopology = \"open\"\n\
-    start = { points = [[0.0, 0.0], [5.0, 0.0]] }\n[material]\ntension = 1.0\n\
+const STRIP: &str = "title = \"a strip\"\n[snake]\nnodes = 6\ntopology = { head = \"free\", tail = \"free\" }\n\
+    start = { points = [[0.0, 0.0], [5.0, 0.0]] }\n[material]\ntether = 0.0\ntension = 1.0\nrigidity = 1.0\n\
     [densities]\nmass = 1.0\ndamping = 1.0\n[world]\ngravity = [0.0, 1.0]\n\
     [run]\ndt = 0.01\nsteps = 200\n[record]\nevery = 70\n";
 

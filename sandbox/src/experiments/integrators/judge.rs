@@ -73,16 +73,15 @@ pub(super) fn share_of_report(record: &Record, share: f64) -> Result<Finding, Sa
     let report = record.number("report: steps at its largest stable step")?;
     let mut best = ("none", f64::INFINITY);
     for scheme in schemes().filter(|scheme| scheme.parameter().is_none() || scheme.order() == 2) {
-        let steps = record.told(&format!("{}: steps to 1e-3", scheme.name()))?;
+        let steps = record.number(&format!("{}: steps to 1e-3", scheme.name()))?;
         if steps < best.1 {
             best = (scheme.name(), steps);
         }
     }
-    let name = best.0;
-    if best.1.is_infinite() {
+    let (name, steps) = best;
+    if steps.is_infinite() {
         return Ok(Finding::new(false, "no scheme gets there"));
     }
-    let steps = record.number(&format!("{name}: steps to 1e-3"))?;
     let found = format!(
         "{name} in {steps} of {report} steps, 1/{:.0}",
         report / steps
