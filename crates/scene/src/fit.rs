@@ -161,14 +161,14 @@ impl Fit {
         let snake = Snake::new(body, world).map_err(unfit)?;
         // its steps are as long as the picture allows, whatever the spacing of the nodes and their stiffness
         let scheme = Scheme::Sbdf2;
-        let limit = Certificate::limit(&snake, scheme).map_or(f64::INFINITY, |limit| limit.dt);
+        let (limit, share) = self.step_limit(&snake, scheme, field.as_deref(), &sight);
         if let Some(dt) = self.dt.filter(|dt| *dt > limit) {
             let message = format!(
                 "a step of {dt} is too large: must be at most {limit}, the largest stable step in this picture"
             );
             return Err(SceneError::key("--dt", message));
         }
-        let dt = self.dt.unwrap_or((0.5 * limit).min(MOST_DT));
+        let dt = self.dt.unwrap_or((share * limit).min(MOST_DT));
         Ok(Scene {
             name: "fit".to_owned(),
             title: "a contour fitted to a picture".to_owned(),
@@ -204,6 +204,36 @@ impl Fit {
             notes,
             inputs: Vec::new(),
         })
+    }
+
+    /// The largest stable step anywhere in the picture, and which share of it to take.
+    ///
+    /// A field that is computed where the curve goes is not computed for this: its slopes are bounded by the picture's range
+    /// of levels, H. With gain g, the force of one dimension has the slope g (H/2) ∫|G‴| at most, and
+    /// ∫|G‴| = 2 (1 + 4 e^(−3/2)) / (√(2π) σ³) for a Gaussian G.
+    fn step_limit(
+        &self,
+        snake: &Snake,
+        scheme: Scheme,
+        field: Option<&ForceField>,
+        sight: &Sight<'_>,
+    ) -> (f64, f64) {
+        if field.is_some_and(|field| field.tiles_computed().is_some()) {
+            let gain = self.gain(sight);
+            let total = 2.0 * (1.0 + 4.0 * (-1.5_f64).exp());
+            let sharp = (std::f64::consts::TAU.sqrt() * self.sigma.powi(3)).recip();
+            let slope = 0.5 * gain * sight.range() * total * sharp;
+            let limit = Certificate::limit_for_slope(snake, scheme, slope);
+            return (limit.unwrap_or(f64::INFINITY), 1.0);
+        }
+        let limit = Certificate::limit(snake, scheme);
+        (limit.map_or(f64::INFINITY, |limit| limit.dt), 0.5)
+    }
+
+    /// The gain of the usual edge force.
+    fn gain(&self, sight: &Sight<'_>) -> f64 {
+        let usual = EdgeForce::as_strong_as_the_report().gain;
+        self.strength * usual * 120.0 / sight.contrast()
     }
 
     /// The forces of the picture, and the field of the usual one.
@@ -252,10 +282,9 @@ impl Fit {
 
     /// The field of the usual edge force.
     fn usual_field(&self, sight: &Sight<'_>) -> Result<ForceField, SceneError> {
-        let usual = EdgeForce::as_strong_as_the_report().gain;
         let rule = EdgeForce {
             smoothing: Smoothing::Gaussian(self.sigma),
-            gain: self.strength * usual * 120.0 / sight.contrast(),
+            gain: self.gain(sight),
         };
         sight.edge_field(rule, ["--sigma", "--computed"])
     }

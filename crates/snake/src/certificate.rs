@@ -144,6 +144,17 @@ impl Certificate {
         limits.flatten().min_by(|a, b| a.dt.total_cmp(&b.dt))
     }
 
+    /// The largest step of one scheme for a snake whose forces push back by at most `slope`, whatever forces it
+    /// has: for pictures whose slopes are known by a bound alone. M T⁻². None where any step is stable. O(n).
+    #[must_use]
+    pub fn limit_for_slope(snake: &Snake, scheme: Scheme, slope: f64) -> Option<f64> {
+        let pull = Pull {
+            stiffness: slope,
+            damping: 0.0,
+        };
+        scheme.step_limit(&Felt { snake, pull })
+    }
+
     fn limit_as_it_is(snake: &Snake, scheme: Scheme) -> Option<Limit> {
         let own = Limit::of(scheme, snake);
         let implicit = scheme == Scheme::LinearlyImplicit;

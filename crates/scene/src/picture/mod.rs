@@ -9,7 +9,7 @@
 mod decode;
 mod drawn;
 mod jpeg;
-mod pixels;
+pub(crate) mod pixels;
 mod png;
 mod pnm;
 mod source;
@@ -200,7 +200,7 @@ impl Picture {
         if !self.deep {
             return (0.0, 255.0);
         }
-        let [least, low, high, largest] = self.limits();
+        let [least, low, high, largest] = self.grey_limits();
         if high > low {
             (low, high)
         } else if largest > least {
@@ -311,13 +311,8 @@ impl Picture {
         !matches!(self.pixels, Pixels::Levels)
     }
 
-    /// [`Picture::contrast`] of its levels.
-    pub(crate) fn grey_contrast(&self) -> f64 {
-        pixels::spread_of(self.limits())
-    }
-
     /// The least level, the 2nd and the 98th percentile, and the largest.
-    fn limits(&self) -> [f64; 4] {
+    pub(crate) fn grey_limits(&self) -> [f64; 4] {
         match (&self.valid, self.levels.get()) {
             (None, None) => self.pixels.limits().unwrap_or_default(),
             (None, Some(levels)) => pixels::limits_of(|| levels.iter().copied()),

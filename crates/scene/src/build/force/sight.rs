@@ -9,6 +9,7 @@ use super::super::edge_field::{Computing, Wanted, edge_field};
 use super::{At, Made, above_nothing, either, grids, is_field, is_region, looks};
 use crate::file::{ForceText, KindText};
 use crate::limits::{MOST_FIELDS, USUALLY_WHOLE};
+use crate::picture::pixels::spread_of;
 use crate::{Picture, SceneError};
 
 /// A picture as the kinds of force look at it.
@@ -16,6 +17,7 @@ pub(crate) struct Sight<'a> {
     pub picture: &'a Picture,
     grey: OnceCell<MaskedImage>,
     contrast: f64,
+    range: f64,
     computing: Computing,
     whole_up_to: u64,
     /// The field of `[field]`, once it has been made.
@@ -35,10 +37,12 @@ pub(super) enum Seen {
 
 impl<'a> Sight<'a> {
     pub(crate) fn of(picture: &'a Picture) -> Result<Self, SceneError> {
+        let limits = picture.grey_limits();
         let sight = Self {
             picture,
             grey: OnceCell::new(),
-            contrast: picture.grey_contrast(),
+            contrast: spread_of(limits),
+            range: limits[3] - limits[0],
             computing: Computing::Auto,
             whole_up_to: USUALLY_WHOLE,
             usual: OnceCell::new(),
@@ -123,7 +127,12 @@ impl<'a> Sight<'a> {
         above_nothing(self.contrast)
     }
 
-    /// The same, 0 for a constant.
+    /// The largest level less the least.
+    pub(crate) const fn range(&self) -> f64 {
+        self.range
+    }
+
+    /// The same as [`Sight::contrast`], 0 for a constant.
     pub(crate) const fn true_contrast(&self) -> f64 {
         self.contrast
     }
