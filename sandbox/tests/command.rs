@@ -102,20 +102,6 @@ fn an_unknown_experiment_is_refused_with_the_nearest_name() {
 }
 
 #[test]
-fn an_unknown_id_among_those_of_a_kind_is_refused_and_nothing_is_run() {
-    let folder = tempfile::tempdir().unwrap();
-    for kind in ["atlas", "integrators"] {
-        let output = sandbox(folder.path(), &[kind, "--only", "nosuch"]);
-        assert_eq!(output.status.code(), Some(2), "{kind}");
-        let told = words(&output.stderr);
-        assert!(told.contains("--only must be one of"), "{told}");
-        assert_eq!(told.lines().count(), 1, "{told}");
-        assert!(output.stdout.is_empty());
-    }
-    assert!(names(folder.path()).is_empty());
-}
-
-#[test]
 fn a_folder_that_cannot_be_written_is_refused_before_any_work() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("taken"), b"a file").unwrap();

@@ -277,7 +277,7 @@ fn a_step_beyond_the_limit_is_refused_with_the_limit_and_runs_when_forced() {
     let folder = Folder::new();
     folder.write("s.toml", scene(&[("steps = 5", "steps = 5000")]));
     let args = [
-        "run", "s.toml", "--dt", "9.0", "--out", "o.csv", "--record", "r.jsonl",
+        "run", "s.toml", "--dt", "9.0", "--steps", "5000", "--out", "o.csv", "--record", "r.jsonl",
     ];
     folder.refused(
         &args,

@@ -18,49 +18,12 @@
 
 use glam::DVec2;
 
+use crate::impulse::{Moment, Pace, friction};
 use crate::solver::Solver;
 use crate::{Fault, Meeting, Response, State, System, Touch, stepper};
 
-/// The end of a step.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Moment {
-    /// Its time.
-    pub(crate) t: f64,
-    /// How long the step was.
-    pub(crate) dt: f64,
-    /// How far the velocities are behind the positions.
-    pub(crate) pace: Pace,
-}
-
-impl Moment {
-    /// How far the velocities are behind the positions.
-    fn lag(self) -> f64 {
-        match self.pace {
-            Pace::Together { .. } => 0.0,
-            Pace::Catching | Pace::Late => 0.5 * self.dt,
-        }
-    }
-
-    /// How far a node is moved in a step by a force that changes its velocity by 1.
-    fn way(self) -> f64 {
-        match self.pace {
-            Pace::Together { way } => way * self.dt,
-            Pace::Catching | Pace::Late => self.dt,
-        }
-    }
-}
-
-/// How velocities and positions of a scheme belong together.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Pace {
-    /// At the same time. A constant force that changes the velocity by Δv in a step has moved the node
-    /// by `way · dt · Δv`: ½, or 1 in Euler's methods.
-    Together { way: f64 },
-    /// The velocity is half a step late, and receives the second half of the forces after the touch.
-    Catching,
-    /// The velocity is always half a step late.
-    Late,
-}
+/// A node that comes no faster than its forces make it in so many steps lies on its obstacle.
+const RESTING: f64 = 2.0;
 
 /// Scratch space for contacts.
 #[derive(Debug)]
@@ -194,7 +157,8 @@ impl Contacts {
         for (touch, &speed) in self.touches.iter().zip(&self.speeds) {
             let i = touch.node;
             let more = speed - v[i].dot(touch.normal);
-            let change = impulse(touch, v[i], more, more);
+            let mut change = touch.normal * more;
+            change += friction(touch, v[i], more);
             v[i] += change;
             self.support[i] += change;
         }
@@ -229,7 +193,8 @@ impl Contacts {
         // what the move costs: ΔU, and the motion of those that follow
         let mut cost = 0.0;
         self.passed_on.clear();
-        if let Some(solver) = solver {
+        let mut solver = solver;
+        if let Some(solver) = &mut solver {
             solver.follow(&mut self.touches, &mut self.shift);
             self.pass_on(system, solver, dt);
             let mass = system.mass();
@@ -256,22 +221,64 @@ impl Contacts {
             }
             self.tame(system.mass(), moment, v, cost);
         }
-        for (k, (touch, &speed)) in self.touches.iter().zip(&self.speeds).enumerate() {
+        for (touch, &speed) in self.touches.iter().zip(&self.speeds) {
             let i = touch.node;
-            if moment.pace == Pace::Late && touch.response == Response::Clamp {
+            v[i] = if moment.pace == Pace::Late && touch.response == Response::Clamp {
                 // as the report's program forms it, to the last digit
-                v[i] = (touch.position - before[i]) / dt;
+                (touch.position - before[i]) / dt
+            } else {
+                v[i] + touch.normal * (speed - v[i].dot(touch.normal))
+            };
+        }
+        self.rub(system, moment, before, x, v, solver.as_deref());
+        Ok(true)
+    }
+
+    /// Friction, by the impulses across that have been given.
+    ///
+    /// It acts during the step and shortens the way along the obstacle; in an implicit step as a force in the step's own
+    /// equation, so that a stiff body is not torn. It takes no more than the way and the speed there are: a force
+    /// against the way of its node takes energy, whatever the scheme.
+    fn rub(
+        &mut self,
+        system: &dyn System,
+        moment: Moment,
+        before: &[DVec2],
+        x: &mut [DVec2],
+        v: &mut [DVec2],
+        solver: Option<&Solver>,
+    ) {
+        let way = moment.way();
+        self.product.fill(DVec2::ZERO);
+        let mut any = false;
+        for (k, touch) in self.touches.iter().enumerate() {
+            let i = touch.node;
+            let across = (v[i] - self.was.1[i]).dot(touch.normal);
+            let pressed = across + self.passed_on.get(k).copied().unwrap_or(0.0);
+            let mut change = friction(touch, v[i], pressed);
+            let gone = (x[i] - before[i]).dot(change.normalize_or_zero());
+            if way * change.length() > -gone {
+                change = change.normalize_or_zero() * (-gone / way).max(0.0);
+            }
+            if change == DVec2::ZERO {
                 continue;
             }
-            let across = speed - v[i].dot(touch.normal);
-            let pressed = across + self.passed_on.get(k).copied().unwrap_or(0.0);
-            let change = impulse(touch, v[i], across, pressed);
-            // friction acts during the step: what it slows is not carried as far
-            let along = change - touch.normal * change.dot(touch.normal);
-            v[i] += change;
-            x[i] += moment.way() * along;
+            any = true;
+            match solver {
+                None => {
+                    v[i] += change;
+                    x[i] += way * change;
+                }
+                Some(solver) => self.product[i] += solver.inertia(system, i) * way * change,
+            }
         }
-        Ok(true)
+        if let Some(solver) = solver.filter(|_| any) {
+            solver.solve(&mut self.product);
+            for (i, &moved) in self.product.iter().enumerate() {
+                x[i] += moved;
+                v[i] += moved / way;
+            }
+        }
     }
 
     /// Ask every law for the speed across; whether any node is to leave its obstacle.
@@ -331,7 +338,12 @@ impl Contacts {
             {
                 continue;
             }
-            let mut most = share * *speed;
+            let pressed = -self.force[i].dot(touch.normal) / mass[i] * moment.dt;
+            let mut most = if -v[i].dot(touch.normal) < RESTING * pressed {
+                0.0 // what lies on its obstacle falls onto it anew at every step, and does not bounce
+            } else {
+                share * *speed
+            };
             if moment.pace == Pace::Late {
                 let half = moment.lag() * self.force[i].dot(touch.normal) / mass[i];
                 most = (most - half).max(0.0);
@@ -386,22 +398,6 @@ impl Contacts {
     }
 }
 
-/// The change of a velocity: `across` along the normal, and the friction of an impulse of `pressed`.
-fn impulse(touch: &Touch, v: DVec2, across: f64, pressed: f64) -> DVec2 {
-    let mut change = touch.normal * across;
-    if let Response::Impact { friction, .. } = touch.response
-        && friction > 0.0
-        && pressed > 0.0
-    {
-        let along = v - touch.normal * v.dot(touch.normal);
-        let slip = along.length();
-        if slip > 0.0 {
-            change -= along * ((friction * pressed).min(slip) / slip);
-        }
-    }
-    change
-}
-
 /// Kinetic energy, ½ Σ μ |v|².
 #[must_use]
 pub fn kinetic_energy(system: &dyn System, state: &State) -> f64 {
@@ -411,50 +407,4 @@ pub fn kinetic_energy(system: &dyn System, state: &State) -> f64 {
         .zip(&state.v)
         .map(|(m, v)| m * v.length_squared())
         .sum::<f64>()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn touch(restitution: f64, friction: f64) -> Touch {
-        Touch {
-            node: 0,
-            position: DVec2::ZERO,
-            normal: DVec2::X,
-            response: Response::Impact {
-                restitution,
-                friction,
-            },
-        }
-    }
-
-    #[test]
-    fn friction_takes_its_share_of_the_impulse_across() {
-        // from −4 to 2 across: an impulse of 6, friction at most 0.6 of it, 3.0 − 0.6
-        let v = DVec2::new(-4.0, 3.0);
-        let after = v + impulse(&touch(0.5, 0.1), v, 6.0, 6.0);
-        assert!((after - DVec2::new(2.0, 2.4)).length() < 1e-14);
-    }
-
-    #[test]
-    fn friction_counts_the_impulse_that_was_given_and_not_the_one_asked_for() {
-        // the speed away was lowered to 1: the impulse is 5
-        let v = DVec2::new(-4.0, 3.0);
-        let after = v + impulse(&touch(0.5, 0.1), v, 5.0, 5.0);
-        assert!((after - DVec2::new(1.0, 2.5)).length() < 1e-14);
-    }
-
-    #[test]
-    fn strong_friction_stops_the_slip_and_does_not_turn_it_round() {
-        let v = DVec2::new(-4.0, 3.0);
-        let after = v + impulse(&touch(0.0, 5.0), v, 4.0, 4.0);
-        assert!(after.length() < 1e-15);
-    }
-
-    #[test]
-    fn a_node_that_leaves_already_keeps_its_velocity() {
-        let v = DVec2::new(4.0, 3.0);
-        assert_eq!(impulse(&touch(0.5, 0.1), v, 0.0, 0.0), DVec2::ZERO);
-    }
 }

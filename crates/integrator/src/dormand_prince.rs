@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use crate::contact::{Contacts, Moment, Pace};
+use crate::contact::Contacts;
+use crate::impulse::{Moment, Pace};
 use crate::rk4::{Rates, stop_held};
 use crate::stepper::{self, Clock, Mass};
 use crate::{Fault, FaultKind, SchemeError, State, Stepper, System};

@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use crate::contact::{Contacts, Moment, Pace};
+use crate::contact::Contacts;
+use crate::impulse::{Moment, Pace};
 use crate::solver::Solver;
 use crate::stepper::{self, Clock, Mass};
 use crate::{Fault, SchemeError, State, Stepper, System, each};

@@ -35,6 +35,7 @@ mod each;
 mod error;
 mod euler;
 mod exact;
+mod impulse;
 mod leapfrog;
 mod limits;
 mod linear;

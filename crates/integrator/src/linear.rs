@@ -6,7 +6,8 @@
 use banded::{Band, Banded, BandedFactor, Dense, Operator};
 use glam::{DMat2, DVec2};
 
-use crate::contact::{Contacts, Moment, Pace};
+use crate::contact::Contacts;
+use crate::impulse::{Moment, Pace};
 use crate::solver::Solver;
 use crate::stepper::{self, Clock, Mass};
 use crate::{Fault, SchemeError, State, Stepper, System};

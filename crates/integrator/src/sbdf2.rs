@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use crate::contact::{Contacts, Moment, Pace};
+use crate::contact::Contacts;
+use crate::impulse::{Moment, Pace};
 use crate::solver::Solver;
 use crate::stepper::{self, Clock, Mass};
 use crate::{Fault, SchemeError, State, Stepper, System, each};
@@ -34,6 +35,8 @@ pub(crate) struct Sbdf2 {
     last_x: Vec<DVec2>,
     last_v: Vec<DVec2>,
     last_f: Vec<DVec2>,
+    /// x and v at the end of the last step, v as someone else has changed it since.
+    ended: (Vec<DVec2>, Vec<DVec2>),
     force: Vec<DVec2>,
     external: Vec<DVec2>,
     next_x: Vec<DVec2>,
@@ -64,6 +67,7 @@ impl Sbdf2 {
             last_x: zeros(),
             last_v: zeros(),
             last_f: zeros(),
+            ended: (zeros(), zeros()),
             force: zeros(),
             external: zeros(),
             next_x: zeros(),
@@ -154,6 +158,8 @@ impl Stepper for Sbdf2 {
         std::mem::swap(&mut self.last_f, &mut self.external);
         std::mem::swap(&mut state.x, x);
         std::mem::swap(&mut state.v, v);
+        self.ended.0.copy_from_slice(&state.x);
+        self.ended.1.copy_from_slice(&state.v);
         self.starts = false;
         self.clock.tick(state);
         Ok(())
@@ -166,6 +172,15 @@ impl Stepper for Sbdf2 {
     fn resume(&mut self, _system: &mut dyn System, state: &State) {
         if (self.clock.now() - state.t).abs() > 1e-9 * self.clock.dt {
             self.starts = true;
+        } else if state.x == self.ended.0 {
+            // a kick from outside is given to the past as well, as a touch is
+            let dt = self.clock.dt;
+            for i in 0..state.len() {
+                let given = state.v[i] - self.ended.1[i];
+                self.last_x[i] += dt * given;
+                self.last_v[i] += given;
+                self.ended.1[i] = state.v[i];
+            }
         } else {
             // x₋ is where the last step began
             for i in 0..state.len() {

@@ -162,6 +162,10 @@ impl Fit {
         // its steps are as long as the picture allows, whatever the spacing of the nodes and their stiffness
         let scheme = Scheme::Sbdf2;
         let (limit, share) = self.step_limit(&snake, scheme, field.as_deref(), &sight);
+        if let Some(dt) = self.dt.filter(|dt| !(dt.is_finite() && *dt > 0.0)) {
+            let message = format!("must be finite and above 0, got {dt}");
+            return Err(SceneError::key("--dt", message));
+        }
         if let Some(dt) = self.dt.filter(|dt| *dt > limit) {
             let message = format!(
                 "a step of {dt} is too large: must be at most {limit}, the largest stable step in this picture"
@@ -208,8 +212,8 @@ impl Fit {
 
     /// The largest stable step anywhere in the picture, and which share of it to take.
     ///
-    /// A field that is computed where the curve goes is not computed for this: its slopes are bounded by the picture's range
-    /// of levels, H. With gain g, the force of one dimension has the slope g (H/2) ∫|G‴| at most, and
+    /// The usual field is computed where the curve goes, and not as a whole for this: its slopes are bounded by the picture's
+    /// range of levels, H. With gain g, the force of one dimension has the slope g (H/2) ∫|G‴| at most, and
     /// ∫|G‴| = 2 (1 + 4 e^(−3/2)) / (√(2π) σ³) for a Gaussian G.
     fn step_limit(
         &self,
@@ -218,7 +222,7 @@ impl Fit {
         field: Option<&ForceField>,
         sight: &Sight<'_>,
     ) -> (f64, f64) {
-        if field.is_some_and(|field| field.tiles_computed().is_some()) {
+        if field.is_some() {
             let gain = self.gain(sight);
             let total = 2.0 * (1.0 + 4.0 * (-1.5_f64).exp());
             let sharp = (std::f64::consts::TAU.sqrt() * self.sigma.powi(3)).recip();

@@ -107,13 +107,18 @@ impl Plan {
     }
 
     /// Take steps of another length: the run takes as long as before, and what is kept is kept at the nearest times.
+    /// A length that is none is taken as it is, for [`Scene::check`] to refuse.
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "at least 0, and a number beyond u64 becomes the largest"
     )]
     pub fn set_step(&mut self, dt: f64) {
-        let ratio = self.dt / dt;
+        let ratio = if dt.is_finite() && dt > 0.0 {
+            self.dt / dt
+        } else {
+            1.0
+        };
         let scaled = |steps: u64| (steps as f64 * ratio).round() as u64;
         self.until.steps = scaled(self.until.steps);
         self.recording.every = self.recording.every.map(|every| scaled(every).max(1));

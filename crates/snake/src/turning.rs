@@ -1,4 +1,6 @@
 //! The rotating body frame of report §5.2: three coupled equations for center, angle and deformation.
+//!
+//! Long because the three equations, their inertial forces and what is booked of them share one derivation.
 
 use std::fmt;
 use std::str::FromStr;

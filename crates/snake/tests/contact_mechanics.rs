@@ -134,7 +134,7 @@ fn what_lies_on_a_smooth_slope_slides_down_with_the_whole_of_gravity_along_it() 
 fn what_lies_on_a_rough_slope_slides_by_coulombs_law_or_not_at_all() {
     let (dt, steps) = (0.01, 400);
     for scheme in inert() {
-        for restitution in [0.0, 0.3] {
+        for restitution in [0.0, 0.3, 0.9] {
             for degrees in ANGLES {
                 let (along, _) = slope(degrees);
                 // slides: 1 − 0.2 · 1.7; holds: 1 < 0.8 · 1.7
@@ -225,6 +225,39 @@ fn a_ball_that_bounces_loses_as_much_along_a_rough_wall_as_coulomb_says() {
                     "{scheme}, {restitution}, {degrees}: {lost} along for {given} across"
                 );
             }
+        }
+    }
+}
+
+#[test]
+fn friction_takes_energy_from_a_stiff_ball_at_any_step() {
+    // the fastest wave turns by 12 in a step: a node that friction alone moved would tear the ball
+    let implicit = |scheme: &Scheme| {
+        !matches!(
+            scheme,
+            Scheme::Report | Scheme::Leapfrog | Scheme::Rk4 | Scheme::DormandPrince { .. }
+        )
+    };
+    for scheme in inert().filter(implicit) {
+        let wall = Wall::new(DVec2::ZERO, DVec2::Y, impact(0.5, 0.3)).unwrap();
+        let nodes = elastic::circle(DVec2::new(0.0, 3.0), 2.0, 20);
+        let body = Body::of(&nodes, Topology::Closed, 1.0)
+            .unwrap()
+            .with_material(Material::uniform(1.0, 1e5, 1e4));
+        let world = World::default()
+            .with_wall(wall)
+            .with_gravity(DVec2::new(0.0, -1.0));
+        let mut snake = Snake::new(body, world).unwrap();
+        let mut state = State::at_rest(nodes);
+        state.v.fill(DVec2::new(3.0, 0.0));
+        let first = snake.energies(&state).mechanical();
+        let mut stepper = scheme
+            .start(&mut snake, &state, 0.02, Start::SecondOrder)
+            .unwrap();
+        for _ in 0..1000 {
+            stepper.step(&mut snake, &mut state).unwrap();
+            let rise = snake.energies(&state).mechanical() - first;
+            assert!(rise < 0.01 * first, "{scheme}: {rise} of {first}");
         }
     }
 }

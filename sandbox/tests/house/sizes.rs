@@ -14,7 +14,7 @@ const MOST_LINES: usize = 600;
 const REASON: &str = "Long because";
 
 /// Files longer than [`LINES`] that do not say why yet.
-const LONG_TODAY: [&str; 29] = [
+const LONG_TODAY: [&str; 28] = [
     "crates/cli/tests/bad_numbers.rs",
     "crates/cli/tests/commands.rs",
     "crates/elastic/tests/kernel.rs",
@@ -26,7 +26,6 @@ const LONG_TODAY: [&str; 29] = [
     "crates/scene/tests/bodies.rs",
     "crates/scene/tests/forces.rs",
     "crates/snake/src/algebra.rs",
-    "crates/snake/src/certificate.rs",
     "crates/snake/src/crowd.rs",
     "crates/snake/src/crowd/contact.rs",
     "crates/snake/src/crowd/passage.rs",
@@ -55,10 +54,10 @@ const WIDE_TODAY: [&str; 1] = ["crates/integrator/src/adaptive.rs: new"];
 const EXPORTS: usize = 20;
 /// Crates that export more, and how many.
 const EXPORTS_TODAY: [(&str, usize); 8] = [
-    ("banded", 23),
+    ("banded", 24),
     ("elastic", 43),
     ("field", 78),
-    ("integrator", 24),
+    ("integrator", 25),
     ("outline", 38),
     ("scene", 33),
     ("snake", 55),

@@ -1,4 +1,6 @@
 //! Pixels as a file held them, and what can be said of them without turning all into doubles.
+//!
+//! Long because every depth and sign of level has its own arm, and all stand side by side.
 
 use std::sync::Arc;
 
