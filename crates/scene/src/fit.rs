@@ -25,6 +25,9 @@ const RESOLVES: f64 = 2.5;
 /// The longest step, for pictures that pull weakly: the usual curve is damped at a rate of 2. T.
 const MOST_DT: f64 = 1.0;
 
+/// The same for other forces than the usual one: no slope tells how far a step may go where a force jumps. T.
+const MOST_CHOSEN_DT: f64 = 0.2;
+
 /// How to fit a contour to a picture. [`Fit::default`] suits outlines of some tens to thousands of
 /// pixels drawn within about ten pixels of an edge.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,7 +57,7 @@ pub struct Fit {
     pub computing: Computing,
     /// Pressure inside the curve, in pulls of that edge force at strength 1: above 0 it grows, below 0 it shrinks.
     pub balloon: f64,
-    /// The step; by default half of the largest that is stable anywhere in the picture, and at most 1.
+    /// The step; by default half of the largest that is stable anywhere in the picture, and at most 1 (0.2 with chosen forces).
     pub dt: Option<f64>,
     /// Steps at most.
     pub steps: u64,
@@ -76,7 +79,7 @@ impl Default for Fit {
             computing: Computing::Auto,
             balloon: 0.0,
             dt: None,
-            steps: 100_000,
+            steps: 40_000,
         }
     }
 }
@@ -159,8 +162,13 @@ impl Fit {
             world = world.with_wall(Wall::new(point, normal, law).map_err(unfit)?);
         }
         let snake = Snake::new(body, world).map_err(unfit)?;
-        // its steps are as long as the picture allows, whatever the spacing of the nodes and their stiffness
-        let scheme = Scheme::Sbdf2;
+        // the usual force is smooth: steps as long as the picture allows, whatever the spacing of the nodes and their
+        // stiffness. Forces of regions jump, which a scheme that extrapolates them does not bear
+        let scheme = if field.is_some() {
+            Scheme::Sbdf2
+        } else {
+            Scheme::Leapfrog
+        };
         let (limit, share) = self.step_limit(&snake, scheme, field.as_deref(), &sight);
         if let Some(dt) = self.dt.filter(|dt| !(dt.is_finite() && *dt > 0.0)) {
             let message = format!("must be finite and above 0, got {dt}");
@@ -172,7 +180,12 @@ impl Fit {
             );
             return Err(SceneError::key("--dt", message));
         }
-        let dt = self.dt.unwrap_or((share * limit).min(MOST_DT));
+        let most = if field.is_some() {
+            MOST_DT
+        } else {
+            MOST_CHOSEN_DT
+        };
+        let dt = self.dt.unwrap_or((share * limit).min(most));
         Ok(Scene {
             name: "fit".to_owned(),
             title: "a contour fitted to a picture".to_owned(),
