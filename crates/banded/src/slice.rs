@@ -92,7 +92,8 @@ impl<'a> Slices<'a> {
         self.below(self.rounding())
     }
 
-    /// Eigenvalue number `k` from the smallest, counted from 0, to 1e-12 of itself or some 1e-16 of the largest; 0 where
+    /// Eigenvalue number `k` from the smallest, counted from 0, to 1e-12 of itself or some 1e-16 of
+    /// the largest; 0 where
     /// it cannot be told from that. None for `k` of at least the number of rows. About fifty counts.
     #[must_use]
     pub fn eigenvalue(&self, k: usize) -> Option<f64> {

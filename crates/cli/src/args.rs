@@ -181,7 +181,8 @@ pub(crate) struct Fit {
     /// How hard the edge force pulls; 1 suits most.
     #[arg(long, value_name = "S", allow_negative_numbers = true, default_value_t = scene::Fit::default().strength)]
     pub strength: f64,
-    /// The step; if not given, half of the largest that is stable anywhere in the picture, and at most 1 (0.2 with --force).
+    /// The step; if not given, half of the largest that is stable anywhere in the picture, and at
+    /// most 1 (0.2 with --force).
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub dt: Option<f64>,
     /// Steps at most.

@@ -76,8 +76,10 @@ const DENSE: [f64; STAGES] = [
 /// |error of x| ≤ ℓ,   |error of v| ≤ ℓ / L · max(V, L / 1000 h),   ℓ = tolerance · L
 /// ```
 ///
-/// L is half the diagonal of the box around the nodes at the start (1 where they are one point), V the largest speed of a node so far.
-/// So neither the unit of length nor where the origin lies enters. Six forces a sub-step, each with what schedules say at its own time. Contacts are met
+/// L is half the diagonal of the box around the nodes at the start (1 where they are one point), V
+/// the largest speed of a node so far.
+/// So neither the unit of length nor where the origin lies enters. Six forces a sub-step, each with
+/// what schedules say at its own time. Contacts are met
 /// at the ends of sub-steps.
 ///
 /// Dormand & Prince 1980; dense output after Hairer, Nørsett & Wanner, *Solving ODEs I*, II.6.

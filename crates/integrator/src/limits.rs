@@ -71,7 +71,8 @@ fn report_stable(system: &dyn System) -> impl Fn(f64) -> bool {
 
 /// Whether a step is stable in leapfrog: 4 M − dt² K positive definite, whatever the damping.
 ///
-/// The damping of penalty contacts and of the body itself is evaluated half a step late and does count, as in the report's.
+/// The damping of penalty contacts and of the body itself is evaluated half a step late and does
+/// count, as in the report's.
 fn leapfrog_stable(system: &dyn System) -> impl Fn(f64) -> bool {
     let loads = Loads::new(system);
     let late = 2.0 * system.internal_damping();

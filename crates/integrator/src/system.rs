@@ -232,7 +232,7 @@ pub trait System {
         let _ = (dt, before, x, v, touches);
     }
 
-    /// What the touches of the last [`contacts`](Self::contacts) have done: for whoever keeps account of it.
+    /// What the touches of the last [`contacts`](Self::contacts) have done. The energy account asks for it.
     fn met(&mut self, meeting: &Meeting<'_>) {
         let _ = meeting;
     }
@@ -242,12 +242,14 @@ pub trait System {
         let _ = state;
     }
 
-    /// The rounds of an implicit step have not come to agree, and the step was made by those there were: it loses its order, and
-    /// backward Euler's is one of imex. For whoever counts such steps.
+    /// The rounds of an implicit step have not come to agree, and the step was made by those there
+    /// were: it loses its order, and
+    /// backward Euler's is one of imex. Systems that report such steps count them here.
     fn gave_up(&mut self) {}
 
-    /// A frame that moves by an equation of its own, with an inertial force left out of it, has put that energy in, or taken
-    /// it out, during the step: for whoever keeps account of it.
+    /// A frame that moves by an equation of its own, with an inertial force left out of it, has put
+    /// that energy in, or taken
+    /// it out, during the step. The energy account asks for it.
     fn frame_work(&mut self, work: f64) {
         let _ = work;
     }
@@ -257,7 +259,8 @@ pub trait System {
         (0.0, 0.0)
     }
 
-    /// β: the external force holds a damping between nodes of at most β times the stiffness, which schemes see half a step
+    /// β: the external force holds a damping between nodes of at most β times the stiffness, which
+    /// schemes see half a step
     /// late, for step limits. T.
     fn internal_damping(&self) -> f64 {
         0.0

@@ -57,7 +57,8 @@ pub struct Fit {
     pub computing: Computing,
     /// Pressure inside the curve, in pulls of that edge force at strength 1: above 0 it grows, below 0 it shrinks.
     pub balloon: f64,
-    /// The step; by default half of the largest that is stable anywhere in the picture, and at most 1 (0.2 with chosen forces).
+    /// The step; by default half of the largest that is stable anywhere in the picture, and at most
+    /// 1 (0.2 with chosen forces).
     pub dt: Option<f64>,
     /// Steps at most.
     pub steps: u64,
@@ -225,7 +226,8 @@ impl Fit {
 
     /// The largest stable step anywhere in the picture, and which share of it to take.
     ///
-    /// The usual field is computed where the curve goes, and not as a whole for this: its slopes are bounded by the picture's
+    /// The usual field is computed where the curve goes, and not as a whole for this: its slopes
+    /// are bounded by the picture's
     /// range of levels, H. With gain g, the force of one dimension has the slope g (H/2) ∫|G‴| at most, and
     /// ∫|G‴| = 2 (1 + 4 e^(−3/2)) / (√(2π) σ³) for a Gaussian G.
     fn step_limit(

@@ -107,7 +107,7 @@ impl Plan {
     }
 
     /// Take steps of another length: the run takes as long as before, and what is kept is kept at the nearest times.
-    /// A length that is none is taken as it is, for [`Scene::check`] to refuse.
+    /// A step that is not finite and above 0 is stored unchanged; [`Scene::check`] refuses it.
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -77,7 +77,7 @@ fn replaced(target: &Path) -> std::io::Result<Option<std::fs::Metadata>> {
     match std::fs::OpenOptions::new().write(true).open(target) {
         Ok(file) => {
             let data = file.metadata()?;
-            // whoever may do everything may open it all the same
+            // the superuser can open a read-only file too
             if data.permissions().readonly() {
                 return Err(std::io::Error::other("it is read-only"));
             }
@@ -128,7 +128,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), SceneError> {
 #[cfg(unix)]
 fn keep_owner(file: &std::fs::File, before: &std::fs::Metadata) {
     use std::os::unix::fs::{MetadataExt as _, fchown};
-    // it is ours already, or cannot be made another's: then whoever writes it owns it, as any new file
+    // where the owner cannot be kept, the file belongs to the user who writes it, as any new file does
     let _ = fchown(file, Some(before.uid()), Some(before.gid()));
 }
 

@@ -1,4 +1,5 @@
-//! A crowd of one snake is a lone snake: the same end, the same code, the same bytes, for every shipped scene that both can run.
+//! A crowd of one snake is a lone snake: the same end, the same code, the same bytes, for every
+//! shipped scene that both can run.
 #![allow(
     clippy::unwrap_used,
     reason = "a test: a shipped scene that cannot be read should stop it"
@@ -9,7 +10,8 @@ use std::ops::ControlFlow::Continue;
 use scene::snake::Upkeep;
 use scene::{Company, Scene};
 
-/// Shipped scenes that a crowd refuses: a hand, ends that grow, or a frame of its own equation. Whoever makes one machine
+/// Shipped scenes that a crowd refuses: a hand, ends that grow, or a frame of its own equation.
+/// Whoever makes one machine
 /// of both takes them off.
 const REFUSED: &[&str] = &["spinning-oval", "road", "apple-hand"];
 

@@ -27,7 +27,8 @@ pub(crate) struct Passed {
     pub(crate) coarse: bool,
 }
 
-/// Numbers that the trail of sub-steps may hold: a step of more than that is booked by every second of them, every fourth, …
+/// Numbers that the trail of sub-steps may hold: a step of more than that is booked by every second
+/// of them, every fourth, …
 const TRAIL: usize = 1 << 20;
 
 /// What contacts have done within one step or sub-step.

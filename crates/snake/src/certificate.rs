@@ -40,7 +40,8 @@ pub struct Certificate {
     /// Whether that holds wherever the nodes go and whatever schedules say during the run, or only for
     /// forces as they are at one state.
     pub anywhere: bool,
-    /// All modes from the slowest up; or those that nothing brings back, the slowest of the others, and the fastest (see
+    /// All modes from the slowest up; or those that nothing brings back, the slowest of the others,
+    /// and the fastest (see
     /// [`Certificate::complete`]).
     pub modes: Vec<ModeOfMotion>,
     /// Whether `modes` are all of them.

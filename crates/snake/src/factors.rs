@@ -196,8 +196,10 @@ impl Snake {
         self.span = (from, to);
     }
 
-    /// Whether `scheme` can make steps of `dt` at all times of the run ([`Snake::run_between`]) and for whatever factors maps have:
-    /// refused, unless `force`d, is what the elastic force, the damping and the walls alone make unstable. The limit that
+    /// Whether `scheme` can make steps of `dt` at all times of the run ([`Snake::run_between`]) and
+    /// for whatever factors maps have:
+    /// refused, unless `force`d, is what the elastic force, the damping and the walls alone make
+    /// unstable. The limit that
     /// is told then is [`Certificate::limit`], which counts the slopes of all forces as well.
     ///
     /// # Errors

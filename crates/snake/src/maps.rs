@@ -66,7 +66,8 @@ impl Maps {
     ///
     /// # Errors
     ///
-    /// A factor below 0, of the mass one that is not above 0; an interval between looks that is not a finite number above 0.
+    /// A factor below 0, of the mass one that is not above 0; an interval between looks that is not
+    /// a finite number above 0.
     pub fn validate(&self) -> Result<(), SnakeError> {
         finite_at_least("the time between looks", 0.0, "at least 0", self.every)?;
         for (k, map) in self.all().into_iter().enumerate() {

@@ -87,7 +87,8 @@ fn slow_modes_of_long_curves_are_those_of_the_dense_eigenbasis() {
 
 #[test]
 fn critical_damping_of_a_long_clamped_strip_is_that_of_its_slowest_wave() {
-    // ω = (4.730041/L)² √(B/μ) of a clamped beam, in the continuum (Rayleigh 1877, §174); the frame takes the mean out of
+    // ω = (4.730041/L)² √(B/μ) of a clamped beam, in the continuum (Rayleigh 1877, §174); the frame
+    // takes the mean out of
     // even ones, so the first odd one: 7.853205
     for n in [201, 401, 801, 1601] {
         let mut body = curve(

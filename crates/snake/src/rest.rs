@@ -223,7 +223,8 @@ impl Watch {
         }
     }
 
-    /// What a closed curve has become that no longer encloses what it did: on the way there it may come back, at rest it
+    /// What a closed curve has become that no longer encloses what it did: on the way there it may
+    /// come back, at rest it
     /// has not.
     pub(crate) fn turned(&self, snake: &Snake, state: &State) -> Option<Verdict> {
         let area = self.area?;
@@ -261,7 +262,8 @@ impl Watch {
         }
     }
 
-    /// Kinetic energy that is left, twice. A node as near to a wall as that, which bounces at every step or two by what gravity
+    /// Kinetic energy that is left, twice. A node as near to a wall as that, which bounces at every
+    /// step or two by what gravity
     /// gives it in one, counts with its mean velocity.
     fn left(&self, snake: &Snake, state: &State, near: f64) -> f64 {
         let Some((from, t)) = self.late.as_ref().filter(|(_, t)| state.t > *t) else {

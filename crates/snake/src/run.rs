@@ -70,7 +70,8 @@ pub enum Outcome {
         /// Seen at this step.
         step: u64,
     },
-    /// It has shrunk to a hundredth of its size at the start, or less; or a closed curve that enclosed something lies flat.
+    /// It has shrunk to a hundredth of its size at the start, or less; or a closed curve that
+    /// enclosed something lies flat.
     Collapsed {
         /// Seen at this step.
         step: u64,
@@ -80,7 +81,8 @@ pub enum Outcome {
         /// Seen at this step.
         step: u64,
     },
-    /// Curves that push each other lie in each other, or have been: what came too fast for the contacts to stop it has passed
+    /// Curves that push each other lie in each other, or have been: what came too fast for the
+    /// contacts to stop it has passed
     /// into another curve, or through it.
     Overlaps {
         /// Steps completed.

@@ -234,7 +234,8 @@ impl Snake {
             .map_or(Ok(()), |acting| acting.add(&curve, force))
     }
 
-    /// Settle what depends on the curve that a run begins with: which way is out for a pressure, and the sign of an automatic
+    /// Settle what depends on the curve that a run begins with: which way is out for a pressure,
+    /// and the sign of an automatic
     /// one. What is settled stays. [`run`](crate::run) and crowds ask for it; whoever steps a snake by hand
     /// may, and else the first force that acts does.
     pub fn settle(&mut self, state: &State) {
@@ -313,7 +314,8 @@ impl Snake {
 
     /// Largest of the net forces `net` at `state` once walls have answered, held nodes left out.
     ///
-    /// A node that bounces hovers above its wall by what its force moves it in a step or two of that length; or it is as near
+    /// A node that bounces hovers above its wall by what its force moves it in a step or two of
+    /// that length; or it is as near
     /// as counts for nothing.
     pub(crate) fn largest_push(&self, state: &State, net: &[DVec2], (near, dt): (f64, f64)) -> f64 {
         let mut largest = 0.0_f64;

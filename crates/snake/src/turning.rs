@@ -166,8 +166,10 @@ impl Turning {
 
     /// What the absence of inertial forces does to the nodes' energy in space at a state, per unit of time.
     ///
-    /// A force that is left out of the equation of the frame acts in space, with its sign turned: without the Coriolis force
-    /// it is `2 μ ω × ė`. Without the transverse force the frame no longer points where the shape fits best, and what the elastic force
+    /// A force that is left out of the equation of the frame acts in space, with its sign turned:
+    /// without the Coriolis force
+    /// it is `2 μ ω × ė`. Without the transverse force the frame no longer points where the shape
+    /// fits best, and what the elastic force
     /// of the frame does beyond that of the best fit, whose energy is told, counts as well.
     ///
     /// # Errors

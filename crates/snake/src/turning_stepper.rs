@@ -47,7 +47,8 @@ impl TurningStepper {
         })
     }
 
-    /// Work over the last step of the inertial forces that are left out, by Simpson's rule on the cubic through both ends.
+    /// Work over the last step of the inertial forces that are left out, by Simpson's rule on the
+    /// cubic through both ends.
     fn absent(&mut self, before: &State) -> Result<f64, Fault> {
         let (turning, after) = (&mut self.turning, &self.state);
         let dt = after.t - before.t;

@@ -10,7 +10,8 @@ use crate::{Response, System, Touch};
 impl Contacts {
     /// Friction, by the impulses across that have been given.
     ///
-    /// It acts during the step and shortens the way along the obstacle; in an implicit step as a force in the step's own
+    /// It acts during the step and shortens the way along the obstacle; in an implicit step as a
+    /// force in the step's own
     /// equation, so that a stiff body is not torn. It takes no more than the way and the speed there are: a force
     /// against the way of its node takes energy, whatever the scheme.
     pub(super) fn rub(

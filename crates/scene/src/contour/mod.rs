@@ -7,7 +7,8 @@
 //! ```
 //!
 //! The comment and the heading may be left out; a heading names the columns, x and y among them in any place;
-//! separators may be commas, semicolons, tabs or spaces. Several curves have a column `curve`, or blank lines between them.
+//! separators may be commas, semicolons, tabs or spaces. Several curves have a column `curve`, or
+//! blank lines between them.
 
 mod heading;
 mod table;

@@ -1,10 +1,13 @@
 //! Pictures: read from files, or drawn from numbers.
 //!
 //! Inside, a picture is grey *levels* from 0 (black) to 255 (white), whatever the file held: eight
-//! bits as they are, sixteen divided by 257 (with a sign or without), floats (0 … 1) times 255. So a force has the same size
+//! bits as they are, sixteen divided by 257 (with a sign or without), floats (0 … 1) times 255. So
+//! a force has the same size
 //! for the same picture at any depth, and the report's parameters mean what they meant. Colour
 //! becomes grey by `0.299 R + 0.587 G + 0.114 B`, not rounded; the colors are kept for forces that ask
-//! for them. A picture that says how it is to be looked at (EXIF, TIFF tag 274) is turned upright. Transparency is ignored. Some pixels may not count: those a mask says, those that are no numbers.
+//! for them. A picture that says how it is to be looked at (EXIF, TIFF tag 274) is turned upright.
+//! Transparency is ignored. Some pixels may not count: those a mask says, those that are no
+//! numbers.
 
 mod decode;
 mod drawn;
@@ -66,7 +69,8 @@ const SHIPPED: [(&str, &[u8]); 2] = [
 ];
 
 impl Picture {
-    /// Read a picture file, or standard input for `-`: PNG, JPEG, TIFF, PGM/PPM; grey or colour; 8 bit, 16 bit or float.
+    /// Read a picture file, or standard input for `-`: PNG, JPEG, TIFF, PGM/PPM; grey or colour; 8
+    /// bit, 16 bit or float.
     /// No more is read than the picture takes.
     ///
     /// # Errors

@@ -11,10 +11,14 @@ use crate::{Outcome, Until};
 impl Crowd {
     /// Move everything until `until`, showing the crowd to `observer` after every step.
     ///
-    /// It ends as [`run`](crate::run) does: with the observer's word, with a snake that left its picture or blew up, when every
-    /// snake is at rest or never will be, or after the steps. Where not all are at rest, the end is that of the first that is
-    /// lost, else of one that has collapsed or turned over, else of one that goes to and fro. Whatever else it would have been,
-    /// curves that push each other and lie, or have been, in each other deeper than twice [`Contact::stop`](crate::Contact) are no good end.
+    /// It ends as [`run`](crate::run) does: with the observer's word, with a snake that left its
+    /// picture or blew up, when every
+    /// snake is at rest or never will be, or after the steps. Where not all are at rest, the end is
+    /// that of the first that is
+    /// lost, else of one that has collapsed or turned over, else of one that goes to and fro.
+    /// Whatever else it would have been,
+    /// curves that push each other and lie, or have been, in each other deeper than twice
+    /// [`Contact::stop`](crate::Contact) are no good end.
     ///
     /// # Errors
     ///

@@ -20,7 +20,8 @@ const BELOW: f64 = 0.9;
 const MOST: f64 = 1000.0;
 
 impl Crowd {
-    /// Let the step have as many parts as the contacts ask for now: masses and lengths change with upkeep, and nodes that
+    /// Let the step have as many parts as the contacts ask for now: masses and lengths change with
+    /// upkeep, and nodes that
     /// come fast must be seen on the way.
     pub(super) fn divide(&mut self) -> Result<(), CrowdError> {
         let Some(contact) = self.contact else {

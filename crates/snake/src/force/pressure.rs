@@ -26,8 +26,11 @@ const LIQUID: f64 = 1e-3;
 /// k is a force per length of the curve as it is now, M L T⁻²; the report's unit normal times that length is N to second order,
 /// and N makes the force the exact gradient of E. The sum over all nodes is 0: it moves nobody along.
 ///
-/// *Which way is out* is settled by the sign of the area (D78) of the curve that a run begins with ([`Force::settle`]), or else of the
-/// first that the force acts on, and remembered; asking for an energy or a slope settles nothing. A is the area with that sign, and a curve turned inside out has less than none. A constant pressure below 0 ends at
+/// *Which way is out* is settled by the sign of the area (D78) of the curve that a run begins with
+/// ([`Force::settle`]), or else of the
+/// first that the force acts on, and remembered; asking for an energy or a slope settles nothing. A
+/// is the area with that sign, and a curve turned inside out has less than none. A constant
+/// pressure below 0 ends at
 /// A = 0, a gas has p = 1000 k below A₀/1000 and pushes the curve back from negative areas, and so does an area; none
 /// is ever NaN for nodes that are places. A factor over time (a balloon that fades) is the schedule of [`Acting`](crate::Acting).
 ///

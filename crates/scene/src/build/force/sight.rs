@@ -192,7 +192,7 @@ impl<'a> Sight<'a> {
         region.map(Some)
     }
 
-    /// The field of a kind; None for a kind that is none: it asks for the curve, or for no picture.
+    /// The field of a kind; None if the kind has no field: its force depends on the curve, or on no picture.
     pub(crate) fn field(&self, key: &str, kind: &KindText) -> Result<Option<Made>, SceneError> {
         let at = At { key, sight: self };
         let made = match kind {
