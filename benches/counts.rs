@@ -12,6 +12,7 @@
 
 use std::error::Error;
 use std::hint::black_box;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 use std::sync::Arc;
@@ -22,7 +23,7 @@ use field::{EdgeForce, Grid, Interpolation};
 use glam::DVec2;
 use integrator::problems;
 use integrator::{Scheme, Start, State};
-use snake::{Body, Snake, World};
+use snake::{Body, Rest, Sampling, Simulation, Snake, Stepping, Until, World};
 
 mod rings;
 
@@ -37,7 +38,7 @@ type Outcome<T> = Result<T, Box<dyn Error>>;
 /// Something to count: set up once, then run as often as asked.
 type Kernel = fn(u32) -> Outcome<()>;
 
-const KERNELS: [(&str, Kernel); 18] = [
+const KERNELS: [(&str, Kernel); 20] = [
     ("banded-solve/1000", solve),
     ("elastic-force/1000", elastic_force),
     ("leapfrog-step/1000", |times| {
@@ -61,6 +62,10 @@ const KERNELS: [(&str, Kernel); 18] = [
     ("crowd-step/10x16", |times| crowd(10, false, times)),
     ("crowd-step/100x16", |times| crowd(100, false, times)),
     ("crowd-account/10x16", |times| crowd(10, true, times)),
+    ("run-in-picture/200", |times| whole(Scheme::Leapfrog, times)),
+    ("run-in-picture-imex/200", |times| {
+        whole(Scheme::Imex, times)
+    }),
     ("outline-resolve/1000", resolve),
     ("outline-slide/1000", slide),
     ("field-sample/1000", sample),
@@ -149,14 +154,32 @@ fn mapped(scheme: Scheme, times: u32) -> Outcome<()> {
 
 /// Rings in rows of ten, all touching their neighbors: ten times as many should take ten times as long.
 fn crowd(count: u32, account: bool, times: u32) -> Outcome<()> {
-    let mut crowd = rings::crowd(count, 10, 16)?;
-    if !account {
-        crowd = crowd.without_account();
-    }
+    let mut crowd = rings::crowd((count, 10), 16, account)?;
     for _ in 0..times {
-        crowd.step()?;
+        let _ = crowd.step()?;
     }
     black_box(crowd.momentum());
+    Ok(())
+}
+
+/// A whole run of a snake of 200 nodes in a picture, watched for rest: what a user waits for, step by step.
+fn whole(scheme: Scheme, times: u32) -> Outcome<()> {
+    let image = Grid::from_shape_fn((256, 256), |(y, x)| {
+        let p = DVec2::new(x as f64, y as f64) - 127.5;
+        if p.length() < 80.0 { 200.0 } else { 60.0 }
+    });
+    let field = field::edge_force(&image, &EdgeForce::as_strong_as_the_report())?;
+    let nodes = elastic::circle(DVec2::splat(127.5), 84.0, 200);
+    let body = Body::of(&nodes, Topology::Closed, 1.0)?
+        .with_material(Material::uniform(0.0, 20.0, 100.0))
+        .with_damping(2.0);
+    let world = World::default().with_image(Arc::new(field), Sampling::Bilinear);
+    let snake = Snake::new(body, world)?;
+    let stepping = Stepping::of(scheme, 0.1);
+    let mut simulation = Simulation::of(snake, State::at_rest(nodes), stepping)?;
+    let until = Until::at_rest(Rest::default(), u64::from(times));
+    simulation.run(&until, &mut |_| ControlFlow::Continue(()))?;
+    black_box(simulation.momentum());
     Ok(())
 }
 

@@ -5,7 +5,7 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::DVec2;
 use integrator::problems::{self, Problem};
-use integrator::{Fault, Job, Scheme, Start, System, run_jobs};
+use integrator::{Fault, Scheme, Start, System};
 use std::hint::black_box;
 use std::num::NonZeroUsize;
 
@@ -162,35 +162,5 @@ fn starts(c: &mut Criterion) {
     group.finish();
 }
 
-/// Ten thousand snakes of 64 nodes, ten steps each, on one thread and on two.
-fn batch(c: &mut Criterion) {
-    const JOBS: usize = 10_000;
-    const NODES: usize = 64;
-    const STEPS: u64 = 10;
-    let mut group = c.benchmark_group("integrator-batch");
-    group.sample_size(10);
-    group.throughput(Throughput::Elements(JOBS as u64 * NODES as u64 * STEPS));
-    for scheme in [Scheme::Leapfrog, Scheme::Imex] {
-        let mut jobs = Vec::with_capacity(JOBS);
-        for _ in 0..JOBS {
-            let Problem {
-                mut system, state, ..
-            } = ring(NODES);
-            let stepper = scheme
-                .start(&mut system, &state, 0.04, Start::SecondOrder)
-                .expect("a sound ring");
-            jobs.push(Job::new(system, stepper, state));
-        }
-        for threads in [1, 2] {
-            let threads = NonZeroUsize::new(threads).expect("one or two");
-            let name = format!("{scheme}-{threads}-threads");
-            group.bench_function(BenchmarkId::new(name, JOBS), |b| {
-                b.iter(|| black_box(run_jobs(&mut jobs, STEPS, threads)));
-            });
-        }
-    }
-    group.finish();
-}
-
-criterion_group!(benches, steps, alone, eigenvectors, starts, batch);
+criterion_group!(benches, steps, alone, eigenvectors, starts);
 criterion_main!(benches);

@@ -117,10 +117,9 @@ fn crowd(c: &mut Criterion) {
     let mut group = c.benchmark_group("crowd");
     group.sample_size(10);
     for count in [100_u32, 1000, 10_000] {
-        let crowd = rings::crowd(count, 100, 8);
-        let crowd = crowd.unwrap_or_else(|error| unreachable!("{error}"));
         // as scenes do that record no energies
-        let mut crowd = crowd.without_account();
+        let crowd = rings::crowd((count, 100), 8, false);
+        let mut crowd = crowd.unwrap_or_else(|error| unreachable!("{error}"));
         group.throughput(Throughput::Elements(u64::from(count)));
         group.bench_function(BenchmarkId::from_parameter(count), |b| {
             b.iter(|| {

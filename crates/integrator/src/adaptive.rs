@@ -33,7 +33,7 @@ const BELOW: f64 = 0.95;
 ///
 /// [`Scheme::DormandPrince`] chooses its own sub-steps by its own error, which the tolerance holds: its parameter, the
 /// tolerance over the size of the curve, is this one's to set.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Adaptive {
     scheme: Scheme,
     tolerance: f64,
@@ -54,7 +54,7 @@ pub struct Adaptive {
     /// Pairs an output step has at least.
     pairs: u64,
     /// By level: steps of a pair halved k times. The judge of a level is the sub-step of the one before.
-    gears: Vec<Option<Gear>>,
+    gears: Vec<Option<Box<dyn Stepper>>>,
     level: u32,
     /// The level of the sub-steps that ended at the state, if nothing came between.
     rolling: Option<u32>,
@@ -69,13 +69,6 @@ pub struct Adaptive {
     origin: State,
     /// For the scheme that chooses its own.
     own: Option<Box<DormandPrince>>,
-}
-
-/// A stepper of one length, and the version of the system it has seen.
-#[derive(Debug)]
-struct Gear {
-    stepper: Box<dyn Stepper>,
-    seen: u64,
 }
 
 impl Adaptive {
@@ -129,9 +122,9 @@ impl Adaptive {
                 most,
             ));
         }
-        let mut gears: Vec<Option<Gear>> = (0..=LEVELS + 1).map(|_| None).collect();
+        let mut gears: Vec<Option<Box<dyn Stepper>>> = (0..=LEVELS + 1).map(|_| None).collect();
         if pairs < 1.5 {
-            gears[0] = whole.map(|stepper| Gear { stepper, seen: 0 });
+            gears[0] = whole;
         }
         Ok(Self {
             scheme,
@@ -200,41 +193,30 @@ impl Adaptive {
         let slot = &mut self.gears[level as usize];
         match slot {
             Some(_) if goes_on => {}
-            Some(gear) => {
-                let mut system = Watched {
-                    inner: system,
-                    watch: &mut self.watch,
-                    seen: &mut gear.seen,
-                };
-                gear.stepper.resume(&mut system, &self.from);
-            }
+            Some(stepper) => stepper.resume(system, &self.from),
             None => {
                 let start = Start::SecondOrder;
                 let made = self.scheme.start(system, &self.from, dt, start);
-                let stepper = made.map_err(|_| crate::stepper::unsolvable(&self.from.x))?;
-                // as the system is now, whoever else has seen it
-                let seen = self.watch.version;
-                *slot = Some(Gear { stepper, seen });
+                *slot = Some(made.map_err(|_| crate::stepper::unsolvable(&self.from.x))?);
             }
         }
         Ok(())
     }
 
     fn go(
-        gear: &mut Option<Gear>,
+        stepper: &mut Option<Box<dyn Stepper>>,
         watch: &mut Watch,
         system: &mut dyn System,
         state: &mut State,
     ) -> Result<(), Fault> {
-        let Some(gear) = gear else {
+        let Some(stepper) = stepper else {
             return Err(crate::stepper::unsolvable(&state.x));
         };
         let mut system = Watched {
             inner: system,
             watch,
-            seen: &mut gear.seen,
         };
-        gear.stepper.step(&mut system, state)
+        stepper.step(&mut system, state)
     }
 
     /// One pair from `from` at the level there is, into `fine`, and its judge into `coarse`.
@@ -280,10 +262,8 @@ impl Adaptive {
     }
 
     /// Bring the system back to the time of `from`.
-    fn rewind(&mut self, system: &mut dyn System) {
-        if system.advance(self.from.t, &self.from.x) {
-            self.watch.version += 1;
-        }
+    fn rewind(&self, system: &mut dyn System) {
+        system.advance(self.from.t, &self.from.x);
     }
 
     /// By how much a pair could be longer for an error within the tolerance.
@@ -431,6 +411,10 @@ impl Adaptive {
 }
 
 impl Stepper for Adaptive {
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         if self.own.is_some() {
             return self.by_itself(system, state);

@@ -10,7 +10,7 @@ use glam::DVec2;
 use crate::contact::Contacts;
 use crate::newmark::StandIn;
 use crate::solver::Solver;
-use crate::stepper::{self, Clock, Mass};
+use crate::stepper::{self, Clock, Mass, Seen};
 use crate::tableau::{Eigenpair, Method, Tableau};
 use crate::{Fault, SchemeError, State, Stepper, System, each};
 
@@ -66,7 +66,7 @@ impl Landing {
 /// External forces are found in rounds with the same factors: one when they are constant, two when they
 /// do not depend on positions, a few when they change less over a step than inertia and stiffness resist. Where they
 /// change more, rounds stop when they no longer approach each other, and order is lost.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Collocation {
     method: Method,
     tableau: Tableau,
@@ -88,6 +88,7 @@ pub(crate) struct Collocation {
     complex_part: Vec<ComplexPoint>,
     next_x: Vec<DVec2>,
     next_v: Vec<DVec2>,
+    seen: Seen,
     contacts: Contacts,
 }
 
@@ -124,6 +125,7 @@ impl Collocation {
             complex_part: vec![ComplexPoint::default(); n],
             next_x: zeros(),
             next_v: zeros(),
+            seen: Seen::of(system),
             contacts: Contacts::new(n),
             landing: Landing::new(method, &tableau, dt),
             tableau,
@@ -131,7 +133,8 @@ impl Collocation {
     }
 
     fn advance(&mut self, system: &mut dyn System, t: f64, x: &[DVec2]) -> Result<(), Fault> {
-        if system.advance(t, x) {
+        if self.seen.left_behind(system, t, x) {
+            self.seen = Seen::of(system);
             self.stand_in.rebuild(system, x)?;
             if let Some(real) = &mut self.real {
                 real.rebuild(system, x)?;
@@ -314,6 +317,10 @@ impl Collocation {
 }
 
 impl Stepper for Collocation {
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let (dt, t) = (self.clock.dt, self.clock.now());
         if system.depends_on_place() {

@@ -28,7 +28,7 @@ use crate::{Fault, Meeting, Response, State, System, Touch, stepper};
 const RESTING: f64 = 2.0;
 
 /// Scratch space for contacts.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Contacts {
     /// The touches of the last step.
     touches: Vec<Touch>,

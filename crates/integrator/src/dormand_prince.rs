@@ -83,7 +83,7 @@ const DENSE: [f64; STAGES] = [
 /// at the ends of sub-steps.
 ///
 /// Dormand & Prince 1980; dense output after Hairer, Nørsett & Wanner, *Solving ODEs I*, II.6.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct DormandPrince {
     clock: Clock,
     tolerance: f64,
@@ -357,6 +357,10 @@ pub(crate) fn size(x: &[DVec2]) -> f64 {
 }
 
 impl Stepper for DormandPrince {
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let end = self.clock.next();
         self.from.copy(state);

@@ -46,7 +46,7 @@ impl Rule {
 /// over one step than the step's own inertia and stiffness resist), the first round stands, which is a step of
 /// [`Rule::Imex`]; the system is told of each ([`System::gave_up`]).
 /// [`Rule::GradientFlow`] leaves out μ whatever it is.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Euler {
     rule: Rule,
     clock: Clock,
@@ -148,6 +148,10 @@ impl Euler {
 }
 
 impl Stepper for Euler {
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let (dt, t) = (self.clock.dt, self.clock.now());
         let end = self.clock.next();

@@ -6,7 +6,7 @@ use crate::contact::Contacts;
 use crate::modes::Modes;
 use crate::newmark::StandIn;
 use crate::oscillator::Oscillator;
-use crate::stepper::{self, Clock, Mass};
+use crate::stepper::{self, Clock, Mass, Seen};
 use crate::{Fault, SchemeError, State, Stepper, System};
 
 /// How external forces join the exact motion.
@@ -38,7 +38,7 @@ impl Join {
 /// well, and the step is corrected by `W Δf / dt` and `Q Δf / dt` with `Δf` its change over the step, so
 /// that constant forces are exact too. Where the system knows that they are constant, both are the same
 /// scheme, without an error and at the cost of a free step.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Exact {
     join: Join,
     clock: Clock,
@@ -55,6 +55,7 @@ pub(crate) struct Exact {
     next_v: Vec<DVec2>,
     /// For the steps in which something is touched.
     stand_in: StandIn,
+    seen: Seen,
     contacts: Contacts,
 }
 
@@ -83,6 +84,7 @@ impl Exact {
             next_x: zeros(),
             next_v: zeros(),
             stand_in: StandIn::new(join.name(), Mass::Needed, dt),
+            seen: Seen::of(system),
             contacts: Contacts::new(state.len()),
         };
         stepper.respond();
@@ -107,9 +109,10 @@ impl Exact {
 
     /// Bring the system to time `t`, and the modes with it.
     fn advance(&mut self, system: &mut dyn System, t: f64, x: &[DVec2]) -> Result<(), Fault> {
-        if !system.advance(t, x) {
+        if !self.seen.left_behind(system, t, x) {
             return Ok(());
         }
+        self.seen = Seen::of(system);
         self.stand_in.rebuild(system, x)?;
         let name = self.join.name();
         self.modes = Modes::new(name, system).map_err(|_| stepper::unsolvable(x))?;
@@ -207,6 +210,10 @@ impl Exact {
 }
 
 impl Stepper for Exact {
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let t = self.clock.now();
         self.advance(system, t, &state.x)?;

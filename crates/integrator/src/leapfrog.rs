@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::contact::Contacts;
 use crate::impulse::{Moment, Pace};
-use crate::stepper::{self, Clock, Mass};
+use crate::stepper::{self, Clock, Mass, Seen};
 use crate::{Fault, SchemeError, Start, State, Stepper, System, each};
 
 /// Leapfrog with centred damping, in increments.
@@ -18,7 +18,7 @@ use crate::{Fault, SchemeError, Start, State, Stepper, System, each};
 /// The positions are those of `x⁺ = [2x − (1 − a/2) x₋ + dt²/μ F] / (1 + a/2)`, without its
 /// cancellation (D18, D21). Forces that depend on velocity see `v½`. Obstacles are met at `x⁺` with `v½`, and
 /// hold the touched nodes against the second half of the forces.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Leapfrog {
     clock: Clock,
     /// Whether `force` holds the force at the state.
@@ -31,6 +31,7 @@ pub(crate) struct Leapfrog {
     common: Option<Coefficients>,
     /// Velocities at the first of a start of first order.
     early: Vec<DVec2>,
+    seen: Seen,
     contacts: Contacts,
 }
 
@@ -89,6 +90,7 @@ impl Leapfrog {
             } else {
                 Vec::new()
             },
+            seen: Seen::default(),
             contacts: Contacts::new(n),
         };
         stepper.prepare(system);
@@ -149,6 +151,7 @@ impl Leapfrog {
 
     fn prepare(&mut self, system: &dyn System) {
         let (mass, damping, held) = (system.mass(), system.damping(), system.held());
+        self.seen = Seen::of(system);
         self.coefficients.clear();
         for i in 0..mass.len() {
             self.coefficients.push(Coefficients::new(
@@ -164,6 +167,10 @@ impl Leapfrog {
 }
 
 impl Stepper for Leapfrog {
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let dt = self.clock.dt;
         if !self.ready {
@@ -194,7 +201,7 @@ impl Stepper for Leapfrog {
             .meet_halfway(system, moment, &state.x, next, half)?;
         // the force of the old place is lost if the new one has none, so a fault starts afresh
         self.ready = false;
-        if system.advance(t, &self.next) {
+        if self.seen.left_behind(system, t, &self.next) {
             if stepper::densities(Self::NAME, system, Mass::Needed).is_err() {
                 return Err(stepper::unsolvable(&state.x));
             }
@@ -224,5 +231,13 @@ impl Stepper for Leapfrog {
         self.early.clear();
         system.advance(self.clock.now(), &state.x);
         self.prepare(system);
+    }
+
+    fn kicked(&mut self, system: &mut dyn System, state: &State) {
+        if self.ready && self.early.is_empty() && !system.external_depends_on_velocity() {
+            self.clock.restart(state);
+        } else {
+            self.resume(system, state);
+        }
     }
 }

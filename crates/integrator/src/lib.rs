@@ -26,7 +26,6 @@
 //! ```
 
 mod adaptive;
-mod batch;
 mod collocation;
 mod contact;
 mod dormand_prince;
@@ -60,7 +59,6 @@ mod wrapped;
 mod tests;
 
 pub use adaptive::Adaptive;
-pub use batch::{Job, run_jobs};
 pub use contact::kinetic_energy;
 pub use dormand_prince::DormandPrince;
 pub use error::SchemeError;

@@ -23,7 +23,7 @@ use crate::{Fault, SchemeError, State, Stepper, System};
 /// knows no slope, or a constant force, it is the scheme named imex. Factors a band twice as wide each step. O(n p²).
 ///
 /// [baraff98].
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct LinearlyImplicit {
     clock: Clock,
     /// Without the slope: for contacts, and for systems that know none.
@@ -110,6 +110,10 @@ impl LinearlyImplicit {
 }
 
 impl Stepper for LinearlyImplicit {
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let (dt, t) = (self.clock.dt, self.clock.now());
         if self.solver.advance(system, t, &state.x)? {
@@ -201,7 +205,7 @@ fn pulling(slope: DMat2) -> DMat2 {
 }
 
 /// The columns an operator has beside its band, once along x and once along y.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Correction {
     columns: Vec<Vec<f64>>,
     middle: Dense,

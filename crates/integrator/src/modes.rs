@@ -16,7 +16,7 @@ pub(crate) const MOST: usize = 1024;
 const SAME: f64 = 1e-12;
 
 /// The oscillators, and the way there and back.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Modes {
     /// Stiffness over mass of each mode; never negative.
     pub(crate) stiffness: Vec<f64>,
@@ -25,7 +25,7 @@ pub(crate) struct Modes {
     basis: Basis,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 enum Basis {
     /// Waves round the ring.
     Waves(Box<Circulant>),

@@ -20,7 +20,7 @@ use crate::{Fault, SchemeError, State, Stepper, System, each};
 /// once. The external force is taken once, at `x + (1 − αf) dt v`.
 ///
 /// [chung93].
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct GeneralizedAlpha {
     weights: Weights,
     clock: Clock,
@@ -117,6 +117,10 @@ impl GeneralizedAlpha {
 }
 
 impl Stepper for GeneralizedAlpha {
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let (dt, t) = (self.clock.dt, self.clock.now());
         let Weights { m, f, g, b } = self.weights;
@@ -199,7 +203,7 @@ impl Stepper for GeneralizedAlpha {
 /// the start of the step, which costs them an order.
 ///
 /// [newmark59].
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Newmark {
     clock: Clock,
     solver: Solver,
@@ -246,6 +250,10 @@ impl Newmark {
 }
 
 impl Stepper for Newmark {
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let (t, half) = (self.clock.now(), 0.5 * self.clock.dt);
         let mut x = &state.x;
@@ -313,7 +321,7 @@ impl Newmark {
 /// A contact in the middle of a long exact or high-order step would be met at its end with all
 /// the energy of a deformation that never was. Here the step is solved with it. Made at the first
 /// touch: many runs have none.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct StandIn {
     name: &'static str,
     need: Mass,

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::contact::Contacts;
 use crate::impulse::{Moment, Pace};
-use crate::stepper::{self, Mass};
+use crate::stepper::{self, Mass, Seen};
 use crate::{Fault, Response, SchemeError, Start, State, Stepper, System, each};
 
 /// Eq. 3.5 as the report's program computes it.
@@ -16,7 +16,7 @@ use crate::{Fault, Response, SchemeError, Start, State, Stepper, System, each};
 /// The velocity is the backward difference `(x − x₋) / dt` (D18). Positions are formed from terms as
 /// large as `2 μ x / dt²`, so rounding grows over thousands of steps (D21), and time is the sum of
 /// all `dt` (D20): both on purpose. A clamp leaves `x₋` alone (D57).
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Report {
     dt: f64,
     start: Start,
@@ -26,6 +26,7 @@ pub(crate) struct Report {
     next: Vec<DVec2>,
     external: Vec<DVec2>,
     elastic: Vec<DVec2>,
+    seen: Seen,
     contacts: Contacts,
 }
 
@@ -56,19 +57,25 @@ impl Report {
             next: zeros(),
             external: zeros(),
             elastic: zeros(),
+            seen: Seen::of(system),
             contacts: Contacts::new(state.len()),
         })
     }
 }
 
 impl Stepper for Report {
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let dt = self.dt;
         let dt2 = dt * dt;
-        if system.advance(state.t, &state.x)
-            && stepper::densities(Self::NAME, system, Mass::Needed).is_err()
-        {
-            return Err(stepper::unsolvable(&state.x));
+        if self.seen.left_behind(system, state.t, &state.x) {
+            if stepper::densities(Self::NAME, system, Mass::Needed).is_err() {
+                return Err(stepper::unsolvable(&state.x));
+            }
+            self.seen = Seen::of(system);
         }
         self.external.fill(DVec2::ZERO);
         system.external(state.t, &state.x, &self.backward, &mut self.external)?;
@@ -133,6 +140,16 @@ impl Stepper for Report {
         self.first = true;
         self.start = Start::SecondOrder;
         self.backward.copy_from_slice(&state.v);
+    }
+
+    /// The velocity is the difference of two positions: the earlier one changes with it.
+    fn kicked(&mut self, _system: &mut dyn System, state: &State) {
+        for (i, (now, before)) in state.v.iter().zip(&mut self.backward).enumerate() {
+            if *now != *before {
+                self.previous[i] -= self.dt * (*now - *before);
+                *before = *now;
+            }
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::contact::Contacts;
 use crate::impulse::{Moment, Pace};
-use crate::stepper::{self, Clock, Mass};
+use crate::stepper::{self, Clock, Mass, Seen};
 use crate::{Fault, SchemeError, State, Stepper, System, each};
 
 /// Runge and Kutta's method of order 4, four forces a step.
@@ -15,7 +15,7 @@ use crate::{Fault, SchemeError, State, Stepper, System, each};
 /// ```
 ///
 /// Stiffness and mass stay as they are during a step.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Rk4 {
     clock: Clock,
     rates: Rates,
@@ -30,17 +30,19 @@ pub(crate) struct Rk4 {
 }
 
 /// Accelerations from forces, for every explicit method of several stages.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Rates {
     /// 1/μ, and γ/μ; zero at held nodes.
     inverse: Vec<(f64, f64)>,
     /// Those of all nodes, where they are the same and none is held.
     common: Option<(f64, f64)>,
+    seen: Seen,
 }
 
 impl Rates {
     pub(crate) fn prepare(&mut self, system: &dyn System) {
         let (mass, damping, held) = (system.mass(), system.damping(), system.held());
+        self.seen = Seen::of(system);
         self.inverse.clear();
         for i in 0..mass.len() {
             let rates = if held[i] {
@@ -63,7 +65,7 @@ impl Rates {
         t: f64,
         x: &[DVec2],
     ) -> Result<bool, Fault> {
-        if !system.advance(t, x) {
+        if !self.seen.left_behind(system, t, x) {
             return Ok(false);
         }
         if stepper::densities(name, system, Mass::Needed).is_err() {
@@ -117,7 +119,7 @@ impl Rk4 {
         let zeros = || vec![DVec2::ZERO; n];
         let mut rates = Rates {
             inverse: Vec::with_capacity(n),
-            common: None,
+            ..Rates::default()
         };
         rates.prepare(system);
         Ok(Self {
@@ -134,6 +136,10 @@ impl Rk4 {
 }
 
 impl Stepper for Rk4 {
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let dt = self.clock.dt;
         let t = self.clock.now();

@@ -22,7 +22,7 @@ use crate::{Fault, SchemeError, State, Stepper, System, each};
 /// acceleration that the past stands for stays.
 ///
 /// [ascher95].
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Sbdf2 {
     clock: Clock,
     solver: Solver,
@@ -106,6 +106,10 @@ impl Sbdf2 {
 }
 
 impl Stepper for Sbdf2 {
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let (dt, t) = (self.clock.dt, self.clock.now());
         self.stale |= self.solver.advance(system, t, &state.x)?;

@@ -7,7 +7,7 @@
 use banded::{Operator, OperatorFactor};
 use glam::DVec2;
 
-use crate::stepper::{self, Mass};
+use crate::stepper::{self, Mass, Seen};
 use crate::{Fault, SchemeError, System, Touch, each};
 
 /// How much stiffer than its own row of `S` a node in contact is made.
@@ -17,7 +17,7 @@ const FIRM: f64 = 1e4;
 const ROUNDS: usize = 20;
 
 /// `S = p M + q C + A`, factored.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Solver {
     name: &'static str,
     need: Mass,
@@ -35,6 +35,7 @@ pub(crate) struct Solver {
     pushed: Vec<bool>,
     firm: Option<OperatorFactor>,
     product: Vec<DVec2>,
+    seen: Seen,
 }
 
 impl Solver {
@@ -62,6 +63,7 @@ impl Solver {
             pushed: vec![false; n],
             firm: None,
             product: vec![DVec2::ZERO; n],
+            seen: Seen::of(system),
         })
     }
 
@@ -72,7 +74,7 @@ impl Solver {
         t: f64,
         x: &[DVec2],
     ) -> Result<bool, Fault> {
-        if !system.advance(t, x) {
+        if !self.seen.left_behind(system, t, x) {
             return Ok(false);
         }
         self.rebuild(system, x)?;
@@ -88,6 +90,7 @@ impl Solver {
         self.firm = None;
         self.mass = each::common(system.mass());
         self.damping = each::common(system.damping());
+        self.seen = Seen::of(system);
         Ok(())
     }
 

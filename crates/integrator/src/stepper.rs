@@ -25,6 +25,38 @@ pub trait Stepper: std::fmt::Debug + Send {
     /// What depends on the step alone is kept, factors above all. A scheme of two steps also keeps its past where
     /// `state` is at the time its last step ended at, and so nearly where that ended.
     fn resume(&mut self, system: &mut dyn System, state: &State);
+
+    /// Go on from the state that the last step ended at, with velocities that someone else has
+    /// changed since, as contacts between two systems do. What does not depend on them is kept.
+    fn kicked(&mut self, system: &mut dyn System, state: &State) {
+        self.resume(system, state);
+    }
+
+    /// The same stepper once more, with all that it remembers.
+    fn boxed(&self) -> Box<dyn Stepper>;
+}
+
+impl Clone for Box<dyn Stepper> {
+    fn clone(&self) -> Self {
+        self.boxed()
+    }
+}
+
+/// The revision of a system that a scheme has its numbers from.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Seen(u64);
+
+impl Seen {
+    /// The present one.
+    pub(crate) fn of(system: &dyn System) -> Self {
+        Self(system.revision())
+    }
+
+    /// Bring the system to time `t` and nodes at `x`; whether it is another revision than the one seen.
+    pub(crate) fn left_behind(&self, system: &mut dyn System, t: f64, x: &[DVec2]) -> bool {
+        system.advance(t, x);
+        system.revision() != self.0
+    }
 }
 
 /// What is known at the start: how a scheme with history invents the step before the first (D19).

@@ -177,14 +177,19 @@ pub trait System {
     /// `A`; rows and columns of held nodes are zero.
     fn stiffness(&self) -> &Operator;
 
-    /// Bring what changes with time to `t`, and what changes with place to nodes at `x`; true if mass, damping or
-    /// stiffness changed.
+    /// Bring what changes with time to `t`, and what changes with place to nodes at `x`. Where that changes mass,
+    /// damping or stiffness, the [`revision`](Self::revision) is another afterwards.
     ///
     /// Places are those of the state at that time, and those of its stages in an explicit scheme; in the middle of an implicit
     /// step they are `x + ½ dt v`.
-    fn advance(&mut self, t: f64, x: &[DVec2]) -> bool {
+    fn advance(&mut self, t: f64, x: &[DVec2]) {
         let _ = (t, x);
-        false
+    }
+
+    /// A number that is another one after every change of mass, damping, stiffness, held nodes or
+    /// forces. Each scheme compares it with the one it has seen last.
+    fn revision(&self) -> u64 {
+        0
     }
 
     /// Whether [`advance`](Self::advance) asks where the nodes are; if not, any places will do.
@@ -211,11 +216,16 @@ pub trait System {
     ) -> Result<(), Fault>;
 
     /// Whether the external force depends neither on place nor on velocity nor on time, as gravity does
-    /// not, until [`advance`](Self::advance) says that something changed.
+    /// not, until the [`revision`](Self::revision) is another.
     ///
     /// Schemes then ask for it once a step, and the exact ones have no error at all.
     fn external_is_constant(&self) -> bool {
         false
+    }
+
+    /// Whether the external force depends on velocities; if not, a change of velocities alone leaves it as it is.
+    fn external_depends_on_velocity(&self) -> bool {
+        true
     }
 
     /// Nodes that met an obstacle while going from `before` to `x`, appended to `touches`.

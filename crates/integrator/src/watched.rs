@@ -1,13 +1,12 @@
-//! One system, moved by several steppers in turn.
+//! Contacts met in sub-steps that may not stand.
 
 use glam::DVec2;
 
 use crate::{Meeting, Response, System, Touch, Wrapped};
 
-/// Which version of a system's parameters there is, and whether something was touched.
+/// What was touched while sub-steps were tried.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Watch {
-    pub(crate) version: u64,
     pub(crate) touched: bool,
     /// How far a node may be off because a contact was met at the end of a step and not before.
     pub(crate) late: f64,
@@ -55,12 +54,10 @@ impl Watch {
     }
 }
 
-/// A system as one of several steppers sees it: told of every change that another one asked for.
+/// A system whose contacts are watched, and told of once it is decided which sub-steps stand.
 pub(crate) struct Watched<'a> {
     pub(crate) inner: &'a mut dyn System,
     pub(crate) watch: &'a mut Watch,
-    /// The version this stepper has seen.
-    pub(crate) seen: &'a mut u64,
 }
 
 impl Wrapped for Watched<'_> {
@@ -70,15 +67,6 @@ impl Wrapped for Watched<'_> {
 
     fn inner_mut(&mut self) -> &mut dyn System {
         &mut *self.inner
-    }
-
-    fn advance(&mut self, t: f64, x: &[DVec2]) -> bool {
-        if self.inner.advance(t, x) {
-            self.watch.version += 1;
-        }
-        let changed = *self.seen != self.watch.version;
-        *self.seen = self.watch.version;
-        changed
     }
 
     fn contacts(

@@ -59,8 +59,13 @@ pub trait Wrapped {
     }
 
     /// See [`System::advance`].
-    fn advance(&mut self, t: f64, x: &[DVec2]) -> bool {
-        self.inner_mut().advance(t, x)
+    fn advance(&mut self, t: f64, x: &[DVec2]) {
+        self.inner_mut().advance(t, x);
+    }
+
+    /// See [`System::revision`].
+    fn revision(&self) -> u64 {
+        self.inner().revision()
     }
 
     /// See [`System::depends_on_place`].
@@ -91,6 +96,11 @@ pub trait Wrapped {
     /// See [`System::external_is_constant`].
     fn external_is_constant(&self) -> bool {
         self.inner().external_is_constant()
+    }
+
+    /// See [`System::external_depends_on_velocity`].
+    fn external_depends_on_velocity(&self) -> bool {
+        self.inner().external_depends_on_velocity()
     }
 
     /// See [`System::contacts`].
@@ -162,8 +172,16 @@ impl<T: Wrapped> System for T {
         Wrapped::stiffness(self)
     }
 
-    fn advance(&mut self, t: f64, x: &[DVec2]) -> bool {
-        Wrapped::advance(self, t, x)
+    fn advance(&mut self, t: f64, x: &[DVec2]) {
+        Wrapped::advance(self, t, x);
+    }
+
+    fn revision(&self) -> u64 {
+        Wrapped::revision(self)
+    }
+
+    fn external_depends_on_velocity(&self) -> bool {
+        Wrapped::external_depends_on_velocity(self)
     }
 
     fn depends_on_place(&self) -> bool {

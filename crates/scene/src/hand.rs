@@ -1,7 +1,7 @@
 //! Forces and holds that come and go during a run, as an observer's hand would bring and take them.
 
 use integrator::State;
-use snake::{Acting, Snake};
+use snake::{Acting, Edit, Snake};
 
 use crate::SceneError;
 use crate::build::force_now;
@@ -11,7 +11,7 @@ use crate::file::ForceText;
 /// take hold and let go after the steps whose times these are; the default has none.
 ///
 /// A hand looks at the curve when it takes hold: a spring is at the point of the curve nearest *then*, frozen nodes stay where they are
-/// *then*. Whoever wants more gives [`snake::run`] an observer, which may change the snake as it likes.
+/// *then*. An observer of [`snake::Simulation::run`] may make any [`Edit`].
 #[derive(Debug, Clone, Default)]
 pub struct Hand {
     grips: Vec<Grip>,
@@ -61,7 +61,7 @@ impl Hand {
         for grip in &self.grips {
             if let Held::Force { full, .. } = &grip.held {
                 // it has the name and the place of one that passed at the door
-                let _ = replace(snake, Acting::clone(full));
+                let _ = snake.replace_force(full.name(), Acting::clone(full));
             }
         }
     }
@@ -74,62 +74,54 @@ impl Hand {
             .fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Let go and take hold where it is time; what was done, in words.
+    /// Let go and take hold where it is time: what is to be done, and in words.
     pub(crate) fn act(
         &mut self,
-        snake: &mut Snake,
         state: &State,
         slack: f64,
-    ) -> Result<Vec<String>, SceneError> {
-        let mut said = Vec::new();
+    ) -> Result<Vec<(Edit, String)>, SceneError> {
+        let mut edits = Vec::new();
         let now = state.t + slack;
         for i in 0..self.grips.len() {
             if self.active[i] && now >= self.grips[i].until {
                 self.active[i] = false;
-                self.let_go(snake, i)?;
-                said.push(self.say(state.t, i, "lets go of"));
+                edits.push((self.let_go(i), self.say(state.t, i, "lets go of")));
             }
         }
         for i in 0..self.grips.len() {
             let grip = &self.grips[i];
             if !self.active[i] && now >= grip.from && now < grip.until {
-                match &grip.held {
-                    Held::Nodes(nodes) => hold(snake, nodes, true)?,
-                    Held::Force { text, idle, .. } => self.put(snake, text, idle, state)?,
-                }
+                let edit = match &grip.held {
+                    Held::Nodes(nodes) => Edit::Hold(nodes.clone()),
+                    Held::Force { text, idle, .. } => {
+                        // found anew from the curve
+                        let acting = force_now(text, &state.x, self.closed)?;
+                        Edit::Replace(acting.unwrap_or_else(|| idle.clone()))
+                    }
+                };
                 self.active[i] = true;
-                said.push(self.say(state.t, i, "takes hold of"));
+                edits.push((edit, self.say(state.t, i, "takes hold of")));
             }
         }
-        Ok(said)
+        Ok(edits)
     }
 
-    fn let_go(&self, snake: &mut Snake, i: usize) -> Result<(), SceneError> {
+    /// How hand `i` lets go.
+    fn let_go(&self, i: usize) -> Edit {
         match &self.grips[i].held {
             Held::Nodes(nodes) => {
-                hold(snake, nodes, false)?;
                 // what others hold as well stays held
-                for (grip, active) in self.grips.iter().zip(&self.active) {
-                    if let (Held::Nodes(nodes), true) = (&grip.held, active) {
-                        hold(snake, nodes, true)?;
-                    }
-                }
-                Ok(())
+                let others = self.grips.iter().zip(&self.active);
+                let held = |node: &usize| {
+                    others.clone().any(|(grip, active)| match &grip.held {
+                        Held::Nodes(nodes) => *active && nodes.contains(node),
+                        Held::Force { .. } => false,
+                    })
+                };
+                Edit::Release(nodes.iter().copied().filter(|node| !held(node)).collect())
             }
-            Held::Force { idle, .. } => replace(snake, idle.clone()),
+            Held::Force { idle, .. } => Edit::Replace(idle.clone()),
         }
-    }
-
-    /// Put the force in its place, found anew from the curve.
-    fn put(
-        &self,
-        snake: &mut Snake,
-        text: &ForceText,
-        idle: &Acting,
-        state: &State,
-    ) -> Result<(), SceneError> {
-        let acting = force_now(text, &state.x, self.closed)?;
-        replace(snake, acting.unwrap_or_else(|| idle.clone()))
     }
 
     fn say(&self, t: f64, i: usize, does: &str) -> String {
@@ -142,20 +134,4 @@ impl Hand {
         };
         format!("t = {t:.4}: hand {i} {does} {what}")
     }
-}
-
-fn hold(snake: &mut Snake, nodes: &[usize], fast: bool) -> Result<(), SceneError> {
-    let nodes = nodes.iter().copied();
-    let done = if fast {
-        snake.hold(nodes)
-    } else {
-        snake.release(nodes)
-    };
-    done.map_err(|e| SceneError::key("hand", e))
-}
-
-fn replace(snake: &mut Snake, acting: Acting) -> Result<(), SceneError> {
-    let name = acting.name().to_owned();
-    let old = snake.replace_force(&name, acting);
-    old.map(|_| ()).map_err(|e| SceneError::key("hand", e))
 }

@@ -6,12 +6,11 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use glam::DVec2;
-use integrator::State;
 use serde::ser::SerializeMap as _;
 use serde::{Serialize, Serializer};
-use snake::{Energies, Ledger, Outcome, Snake};
+use snake::{Energies, Outcome};
 
-use crate::scene::{Recording, Scene};
+use crate::scene::Scene;
 use crate::write::write_whole;
 use crate::{Contour, Evidence, SceneError};
 
@@ -45,25 +44,6 @@ pub struct Curve {
     pub nodes: Vec<DVec2>,
     /// Their velocities, if kept.
     pub velocities: Option<Vec<DVec2>>,
-}
-
-impl Frame {
-    pub(crate) fn of(
-        snake: &mut Snake,
-        state: &State,
-        keep: &Recording,
-        ledger: Option<&Ledger>,
-    ) -> Self {
-        Self {
-            step: state.step,
-            t: state.t,
-            nodes: state.x.clone(),
-            velocities: keep.velocities.then(|| state.v.clone()),
-            energies: ledger.map(|ledger| ledger.energies(snake, state)),
-            first: 0,
-            others: Vec::new(),
-        }
-    }
 }
 
 /// A snake's number, its nodes, and their velocities if kept.

@@ -1,6 +1,5 @@
 //! A situation ready to run: a snake, its start, and the plan of the run.
 
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Arc;
@@ -8,16 +7,13 @@ use std::sync::Arc;
 use field::ForceField;
 use glam::DVec2;
 use integrator::{Scheme, SchemeError, Start, State};
-use snake::{
-    Certificate, Ledger, Outcome, Pace, Snake, Term, Tips, Turning, TurningStepper, Until,
-};
+use snake::{Certificate, Snake, Term, Tips, Until};
 
 use crate::build::{USUAL_TOLERANCE, number};
 use crate::company::Company;
 use crate::hand::Hand;
 use crate::limits::{MOST_KEPT, MOST_SCENE_BYTES, MOST_STEPS};
-use crate::record::{Frame, Record};
-use crate::{Evidence, Picture, SceneError, build, catalogue, read, toml_error};
+use crate::{Picture, SceneError, build, catalogue, read, toml_error};
 
 /// How a drawing should look at a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -129,7 +125,7 @@ impl Plan {
     }
 
     /// Steps that a run of `n` nodes may make before its record is too long.
-    fn room(&self, n: usize) -> u64 {
+    pub(crate) fn room(&self, n: usize) -> u64 {
         let most = self.until.steps;
         if self.recording.kept(most, n) <= MOST_KEPT {
             return most;
@@ -345,168 +341,12 @@ impl Scene {
         let force = plan.force || plan.tolerance.is_some();
         self.of_the_run()
             .check_step(plan.scheme, plan.dt, force)
-            .map_err(|e| refused(&e))
+            .map_err(|e| refused_step(&e))
     }
-
-    /// Run it from the start, showing every step to `observer`.
-    ///
-    /// # Errors
-    ///
-    /// Whatever [`Scene::check`] refuses; a start at which a force cannot be evaluated.
-    pub fn run(
-        &mut self,
-        observer: &mut dyn FnMut(&State) -> ControlFlow<()>,
-    ) -> Result<Record, SceneError> {
-        self.check()?;
-        if let Some(company) = self.company.clone() {
-            return self.run_company(&company, observer);
-        }
-        if let Some((tips, every)) = self.tips.clone() {
-            return self.run_growing(tips, every, observer);
-        }
-        if self.hand.is_empty() {
-            return self.run_alone(observer);
-        }
-        // hands that still have hold at the end are of this run
-        let before = self.snake.clone();
-        self.snake.expect_changes_until(self.hand.end());
-        let record = self.run_alone(observer);
-        self.snake = before;
-        record
-    }
-
-    /// Run the one snake there is.
-    fn run_alone(
-        &mut self,
-        observer: &mut dyn FnMut(&State) -> ControlFlow<()>,
-    ) -> Result<Record, SceneError> {
-        let plan = self.plan.clone();
-        let mut state = self.start.clone();
-        let (from, to) = self.span();
-        self.snake.run_between(from, to);
-        let (mut hand, slack) = (self.hand.clone(), 1e-9 * plan.dt);
-        let mut refusal = None;
-        let mut events = hand.act(&mut self.snake, &state, slack)?;
-        let mut pace = match &self.terms {
-            None => pace(&plan, &mut self.snake, &state).map_err(|error| refused(&error))?,
-            Some(terms) => turning(&plan, &self.snake, &state, terms)?,
-        };
-        let room = plan.room(state.len());
-        let until = Until {
-            steps: room,
-            ..plan.until
-        };
-        let keep = &plan.recording.sorted();
-        let mut ledger = if keep.energies {
-            let begun = Ledger::begin(&mut self.snake, &state);
-            // steps in a frame of its own equation are not the scheme's of the nodes
-            let begun = match self.terms {
-                Some(_) => begun,
-                None => begun
-                    .and_then(|ledger| ledger.under(plan.scheme, plan.start_rule, &mut self.snake)),
-            };
-            Some(begun.map_err(|fault| SceneError::key("snake.start", fault))?)
-        } else {
-            None
-        };
-        let mut record = Record::of(self);
-        record
-            .frames
-            .push(Frame::of(&mut self.snake, &state, keep, ledger.as_ref()));
-        let frames = &mut record.frames;
-        let begin = state.step;
-        let outcome = snake::run(
-            &mut self.snake,
-            pace.stepper(),
-            &mut state,
-            &until,
-            &mut |snake, state| {
-                // a place without force ends the run at the next step, with its own outcome
-                if let Some(ledger) = &mut ledger {
-                    let _ = ledger.book(snake, state);
-                }
-                if keep.keeps(state.step) {
-                    frames.push(Frame::of(snake, state, keep, ledger.as_ref()));
-                }
-                // what is done after the last step is of no run
-                if state.step - begin >= until.steps {
-                    return observer(state);
-                }
-                match hand.act(snake, state, slack) {
-                    Ok(said) => events.extend(said),
-                    Err(error) => {
-                        refusal = Some(error);
-                        return ControlFlow::Break(());
-                    }
-                }
-                observer(state)
-            },
-        );
-        if let Some(error) = refusal {
-            return Err(error);
-        }
-        let last = record
-            .frames
-            .last()
-            .is_some_and(|frame| frame.step == state.step);
-        if !last && !matches!(outcome, Outcome::Diverged { .. }) {
-            record
-                .frames
-                .push(Frame::of(&mut self.snake, &state, keep, ledger.as_ref()));
-        }
-        if self.picture.is_some() && matches!(outcome, Outcome::Settled { .. }) {
-            let start = &self.start.x;
-            let found = Evidence::of(&mut self.snake, start, &state, self.resolves);
-            record.evidence.push(found);
-        }
-        record.events = events;
-        record.remarks.extend(unsettled(&self.snake, plan.scheme));
-        record.outcome = outcome;
-        record.pace = pace.summary().map(ToString::to_string);
-        let short = until.time.is_some_and(|end| state.t < end);
-        if short && room < plan.until.steps && matches!(outcome, Outcome::Finished { .. }) {
-            let message = format!(
-                "has kept {room} steps, all there is room for, by t = {:.6}; fewer moments would do",
-                state.t
-            );
-            return Err(SceneError::key("record.every", message));
-        }
-        Ok(record)
-    }
-}
-
-/// What to say of implicit steps whose rounds did not come to agree.
-pub(crate) fn unsettled(snake: &Snake, scheme: Scheme) -> Option<String> {
-    let count = snake.unsettled();
-    (count > 0).then(|| {
-        format!(
-            "the rounds of {count} steps of {} did not come to agree, so these are of lower order (those of backward-euler \
-             are steps of imex); a smaller step mends it",
-            scheme.name()
-        )
-    })
-}
-
-/// What makes the steps that a plan asks for.
-fn pace(plan: &Plan, snake: &mut Snake, state: &State) -> Result<Pace, SchemeError> {
-    let Some(tolerance) = plan.tolerance else {
-        return Pace::fixed(plan.scheme, snake, state, plan.dt, plan.start_rule);
-    };
-    let pace = Pace::chosen(plan.scheme, snake, state, plan.dt, tolerance)?;
-    Ok(if plan.each { pace.each() } else { pace })
-}
-
-/// In a frame that turns by its own equation, with these inertial forces.
-fn turning(plan: &Plan, snake: &Snake, state: &State, terms: &[Term]) -> Result<Pace, SceneError> {
-    let turning = Turning::new(snake).map_err(|e| SceneError::key("snake.frame", e))?;
-    let missing = Term::ALL.iter().filter(|term| !terms.contains(term));
-    let turning = missing.fold(turning, |turning, &term| turning.without(term));
-    let stepper = TurningStepper::new(turning, plan.scheme, state, plan.dt, plan.start_rule);
-    Ok(Pace::Fixed(Box::new(stepper.map_err(|e| refused(&e))?)))
 }
 
 /// An error of the scheme, under the key it belongs to.
-pub(crate) fn refused(error: &SchemeError) -> SceneError {
+pub(crate) fn refused_step(error: &SchemeError) -> SceneError {
     let key = match error {
         SchemeError::BadStep { .. }
         | SchemeError::AboveLimit { .. }

@@ -151,7 +151,6 @@ fn what_a_turning_frame_cannot_carry_is_refused_by_its_key() {
             "[schedule]\ntension = [[0.0, 1.0], [1.0, 2.0]]\n[run]",
             "stay the same",
         ),
-        ("[run]", "[[also]]\nspin = 1.0\n[run]", "one snake"),
         ("dt = 0.002\n", "dt = \"auto\"\n", "\"auto\""),
         (
             "title",

@@ -47,7 +47,7 @@ every = 300
 
 #[test]
 fn a_snake_put_elsewhere_takes_its_springs_along() {
-    let mut scene = Scene::parse("hanging", HANGING, Path::new(".")).unwrap();
+    let scene = Scene::parse("hanging", HANGING, Path::new(".")).unwrap();
     let record = scene.run(&mut |_| ControlFlow::Continue(())).unwrap();
     let last = record.frames.last().unwrap();
     let first = &record.frames[0];

@@ -93,7 +93,7 @@ fn a_lazy_fit_ends_where_a_whole_one_does_and_looks_at_a_few_tiles() {
     let around = circle(DVec2::new(147.0, 102.0), 44.0);
     for (what, picture) in pictures() {
         let run = |computing| {
-            let mut scene = fit(computing, 3.0).scene(picture.clone(), &around).unwrap();
+            let scene = fit(computing, 3.0).scene(picture.clone(), &around).unwrap();
             let record = scene.run(&mut |_| std::ops::ControlFlow::Continue(()));
             let end = record.unwrap().last().unwrap().nodes.clone();
             (end, scene.field.unwrap().tiles_computed())
@@ -219,7 +219,7 @@ fn from_coarse_to_fine_a_fit_arrives_from_where_one_scale_does_not() {
             rigidity: 20.0,
             ..Fit::default()
         };
-        let mut scene = fit.scene(picture.clone(), &far).unwrap();
+        let scene = fit.scene(picture.clone(), &far).unwrap();
         let record = scene.run(&mut |_| std::ops::ControlFlow::Continue(()));
         let record = record.unwrap();
         let nodes = record.last().unwrap().nodes.clone();

@@ -13,7 +13,7 @@ const STRIP: &str = "title = \"a strip\"\n[snake]\nnodes = 6\ntopology = { head 
 
 #[test]
 fn d34_frames_are_kept_before_the_first_step_and_after_every_70() {
-    let mut scene = Scene::parse("strip", STRIP, Path::new(".")).unwrap();
+    let scene = Scene::parse("strip", STRIP, Path::new(".")).unwrap();
     let record = scene.run(&mut |_| ControlFlow::Continue(())).unwrap();
     let steps: Vec<u64> = record.frames.iter().map(|frame| frame.step).collect();
     // and at the end, whenever that is

@@ -327,7 +327,7 @@ fn disc(radius: f64, rest: f64, lines: &str) -> String {
 }
 
 fn ends_at(radius: f64, rest: f64, lines: &str) -> Vec<f64> {
-    let mut scene = Scene::parse("t", &disc(radius, rest, lines), Path::new(".")).unwrap();
+    let scene = Scene::parse("t", &disc(radius, rest, lines), Path::new(".")).unwrap();
     let record = scene
         .run(&mut |_| std::ops::ControlFlow::Continue(()))
         .unwrap();

@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use scene::integrator::{Scheme, Start};
-use scene::snake::{self, Acting, Spring, Until};
+use scene::snake::{Acting, Spring};
 use scene::{Record, Scene};
 
 /// An arch in empty space that swings, with these hands.
@@ -70,24 +70,19 @@ fn a_hand_of_a_scene_is_what_an_observer_would_do() {
     let mut stepper = Scheme::Leapfrog
         .start(&mut snake, &state, 0.05, Start::SecondOrder)
         .unwrap();
-    snake::run(
-        &mut snake,
-        &mut *stepper,
-        &mut state,
-        &Until::steps(400),
-        &mut |snake, state| {
-            if state.step == 100 {
-                let (from, to) = ((10.0, 9.0).into(), (10.0, 20.0).into());
-                let spring: glam::DVec2 = to;
-                let spring = Spring::at_nearest(&state.x, false, from, spring, 8.0).unwrap();
-                let acting = Acting::new(spring).named("pull");
-                snake.add_force(acting).unwrap();
-            } else if state.step == 240 {
-                assert!(snake.remove_force("pull").is_some());
-            }
-            ControlFlow::Continue(())
-        },
-    );
+    for step in 0..400 {
+        if step == 100 {
+            let (from, to) = (glam::DVec2::new(10.0, 9.0), glam::DVec2::new(10.0, 20.0));
+            let spring = Spring::at_nearest(&state.x, false, from, to, 8.0).unwrap();
+            let acting = Acting::new(spring).named("pull");
+            snake.add_force(acting).unwrap();
+            stepper.resume(&mut snake, &state);
+        } else if step == 240 {
+            assert!(snake.remove_force("pull").is_some());
+            stepper.resume(&mut snake, &state);
+        }
+        stepper.step(&mut snake, &mut state).unwrap();
+    }
     assert_eq!(record.last().unwrap().nodes, state.x);
     assert_eq!(
         record.events,
@@ -199,7 +194,7 @@ fn hands_that_will_not_do_are_refused_by_their_key() {
         ("[[hand]]\nforce = { kind = \"sprung\" }", "sprung"),
         (
             "[upkeep]\nstretch = 2.0\n[[hand]]\nhold = [0, 1]",
-            "without [upkeep] it would do",
+            "[upkeep] numbers them anew",
         ),
     ] {
         let error = refusal(hands);

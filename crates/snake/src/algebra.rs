@@ -175,6 +175,11 @@ impl Algebra {
         self.catches_up = self.rule == Rule::Report;
     }
 
+    /// The same where the scheme goes on from velocities that someone else has changed.
+    pub(crate) fn kicked(&mut self) {
+        self.catches_up &= self.rule == Rule::Report;
+    }
+
     /// What the step from `from` to `to` has done.
     pub(crate) fn step(
         &mut self,

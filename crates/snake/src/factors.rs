@@ -172,10 +172,10 @@ impl Snake {
         self.factors = factors;
     }
 
-    /// The same for an account: the schemes are told at their next step.
+    /// The same for an account, which asks for them by time alone where there are no maps.
     pub(crate) fn bring(&mut self, t: f64, x: &[DVec2]) {
-        if !self.body.maps.is_empty() {
-            self.changed |= self.stand(t, x);
+        if !self.body.maps.is_empty() && self.stand(t, x) {
+            self.revision += 1;
         }
     }
 

@@ -83,6 +83,11 @@ pub trait Force: fmt::Debug + Send + Sync {
         false
     }
 
+    /// Whether the force depends on the velocities of the nodes.
+    fn depends_on_velocity(&self) -> bool {
+        true
+    }
+
     /// Bounds of its slopes for nodes of that spacing at rest: at `curve`, or anywhere without one.
     ///
     /// Where the force on a node depends on others ([`Force::couples`]), of all its slopes together.

@@ -1,7 +1,7 @@
 //! The hand: forces that come and go during a run, and nodes held fast.
 //!
-//! Who watches a run ([`run`](crate::run)) is given the snake after every step and may change it. A [`Ledger`](crate::Ledger) sees
-//! that something changed and books under `hand` what the change itself has put in or taken.
+//! A [`Simulation`](crate::Simulation) does this by [`Edit`](crate::Edit). Its account of energies books under `hand` what
+//! the change itself has put in or taken.
 
 use outline::Plan;
 
@@ -114,13 +114,13 @@ impl Snake {
 
     /// Something changed: the schemes are to be told, and a ledger will ask.
     pub(crate) const fn note(&mut self) {
-        self.changed = true;
+        self.revision += 1;
         self.note_quietly();
     }
 
     /// Something changed that is in no scheme's matrix.
     pub(crate) const fn note_quietly(&mut self) {
-        self.changes += 1;
+        self.edits += 1;
         self.asked_before = self.asked;
     }
 

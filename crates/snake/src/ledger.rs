@@ -108,14 +108,14 @@ impl Ledger {
     ///
     /// The fault of a force that has no value at a node; what was booked before stays.
     pub fn book(&mut self, snake: &mut Snake, state: &State) -> Result<(), Fault> {
-        if snake.changes == self.was.changes {
+        if snake.edits == self.was.edits {
             return self.steps(snake, state);
         }
         if !snake.just_changed() {
             // as it was when it was changed, not as it is at the end of the step
             let now = snake.factors.clone();
             snake.take(self.factors.clone());
-            let changed = self.change(snake, true);
+            let changed = self.change(snake);
             snake.take(now);
             changed?;
             return self.steps(snake, state);
@@ -130,7 +130,7 @@ impl Ledger {
         was.account = snake.account.take();
         snake.keep_account();
         self.steps(&mut was, state)?;
-        self.change(snake, true)
+        self.change(snake)
     }
 
     /// All sub-steps that led to `state`.
@@ -278,8 +278,8 @@ impl Ledger {
         Ok(())
     }
 
-    /// Book the change of the snake that happened at the last state; in a run the scheme begins again then.
-    fn change(&mut self, snake: &mut Snake, again: bool) -> Result<(), Fault> {
+    /// Book the change of the snake that happened at the last state, where the scheme begins again.
+    fn change(&mut self, snake: &mut Snake) -> Result<(), Fault> {
         let mut was = self.was.clone();
         was.keep_up_with(snake);
         let sum = self.energies(&mut was, &self.before).total();
@@ -297,9 +297,7 @@ impl Ledger {
         self.rate = snake.loss(&before);
         if let Some(algebra) = &mut self.algebra {
             algebra.begin(snake, &before, &self.bookings)?;
-            if again {
-                algebra.resume();
-            }
+            algebra.resume();
         }
         *self.was = snake.clone();
         Ok(())
@@ -311,10 +309,10 @@ impl Ledger {
     ///
     /// As [`Ledger::begin`].
     pub(crate) fn catch_up(&mut self, snake: &mut Snake) -> Result<(), Fault> {
-        if snake.changes == self.was.changes {
+        if snake.edits == self.was.edits {
             return Ok(());
         }
-        self.change(snake, false)
+        self.change(snake)
     }
 
     /// Go on with another curve: other nodes, another rest shape, perhaps another scheme's first step. What that does to the
@@ -347,6 +345,25 @@ impl Ledger {
     ///
     /// As [`Ledger::begin`].
     pub fn resume(&mut self, snake: &mut Snake, state: &State) -> Result<(), Fault> {
+        if let Some(algebra) = &mut self.algebra {
+            algebra.resume();
+        }
+        self.go_on(snake, state)
+    }
+
+    /// The same where only velocities have been changed, and the scheme goes on.
+    ///
+    /// # Errors
+    ///
+    /// As [`Ledger::begin`].
+    pub(crate) fn kicked(&mut self, snake: &mut Snake, state: &State) -> Result<(), Fault> {
+        if let Some(algebra) = &mut self.algebra {
+            algebra.kicked();
+        }
+        self.go_on(snake, state)
+    }
+
+    fn go_on(&mut self, snake: &mut Snake, state: &State) -> Result<(), Fault> {
         let n = state.len();
         snake.keep_account();
         snake.bring(state.t, &state.x);
@@ -355,11 +372,8 @@ impl Ledger {
         self.middle.clone_from(state);
         self.force.resize(n, DVec2::ZERO);
         self.halfway.resize(n, DVec2::ZERO);
-        if let Some(algebra) = &mut self.algebra {
-            algebra.resume();
-        }
         self.begin_powers(snake)?;
-        if snake.changes != self.was.changes {
+        if snake.edits != self.was.edits {
             *self.was = snake.clone();
         }
         Ok(())

@@ -1,8 +1,8 @@
-//! A snake: an elastic curve with mass in a physical world.
+//! Snakes: elastic curves with mass in a physical world.
 //!
-//! This is the room where the three quiet crates meet. [`elastic`] says what force a deformed
-//! curve exerts on itself, [`field`] what force a picture exerts at a point, [`integrator`] where
-//! a system of masses is one step later; here they become one [`Snake`], which moves by
+//! Three crates meet here. [`elastic`] says what force a deformed curve exerts on itself, [`field`] what force a picture
+//! exerts at a point, [`integrator`] where a system of masses is one step later; here they become one [`Snake`], which
+//! moves by
 //!
 //! ```text
 //! μ ẍ + γ ẋ + K e = f                                     (report Eq. 3.4)
@@ -13,35 +13,32 @@
 //!
 //! ```
 //! use glam::DVec2;
-//! use integrator::{Scheme, Start, State};
-//! use snake::{Body, Outcome, Snake, Until, World, run};
+//! use integrator::{Scheme, State};
+//! use snake::{Body, Outcome, Simulation, Snake, Stepping, Until, World};
 //!
 //! let circle = elastic::circle(DVec2::ZERO, 10.0, 40);
 //! let body = Body::of(&circle, elastic::Topology::Closed, 1.0)?.with_damping(0.5);
-//! let mut snake = Snake::new(body, World::default().with_gravity(DVec2::new(0.0, 9.8)))?;
-//! let mut state = State::at_rest(circle);
-//! let mut stepper = Scheme::Leapfrog.start(&mut snake, &state, 0.01, Start::SecondOrder)?;
-//! let outcome = run(&mut snake, &mut *stepper, &mut state, &Until::steps(100), &mut |_, _| {
-//!     std::ops::ControlFlow::Continue(())
-//! });
+//! let snake = Snake::new(body, World::default().with_gravity(DVec2::new(0.0, 9.8)))?;
+//! let stepping = Stepping::of(Scheme::Leapfrog, 0.01);
+//! let mut simulation = Simulation::of(snake, State::at_rest(circle), stepping)?;
+//! let outcome = simulation.run(&Until::steps(100), &mut |_| std::ops::ControlFlow::Continue(()))?;
 //! assert_eq!(outcome, Outcome::Finished { step: 100 });
-//! assert!(state.x[0].y > 4.0); // it fell, for one unit of time
+//! assert!(simulation.members()[0].state().x[0].y > 4.0); // it fell, for one unit of time
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! It does no I/O and knows no file, no format and no drawing. A run ends with an [`Outcome`];
 //! blowing up is one of them, not an error.
 //!
-//! The body frame turns with the body where [`Turn::Fit`] says so; [`Turning`] is the same as the report's three
-//! equations have it (§5.2). [`Damping`] is chosen by rules (§3.4.2), which [`Settling`] compares. [`Pressure`] makes it a
-//! balloon (§5.4). A [`Crowd`] is many snakes that meet, and keeps their outlines valid and even. Whoever watches a run may take hold:
-//! [`Snake::add_force`], [`Snake::hold`].
+//! A [`Simulation`] is one snake or many that meet, keeps their outlines valid and even, and is changed between two steps
+//! by [`Edit`]s. The body frame turns with the body where [`Turn::Fit`] says so; [`Turning`] is the same as the report's
+//! three equations have it (§5.2). [`Damping`] is chosen by rules (§3.4.2), which [`Settling`] compares. [`Pressure`]
+//! makes a snake a balloon (§5.4).
 
 mod account;
 mod algebra;
 mod body;
 mod certificate;
-mod crowd;
 mod damping;
 mod energy;
 mod error;
@@ -52,13 +49,15 @@ mod inner;
 mod ledger;
 mod maps;
 mod modes;
+mod outcome;
 mod pace;
+mod parameter;
 mod parameters;
 mod renewal;
 mod rest;
-mod run;
 mod schedule;
 mod settling;
+mod simulation;
 mod slide;
 mod snake;
 mod tips;
@@ -70,7 +69,6 @@ mod world;
 
 pub use body::{Body, Center, Frame};
 pub use certificate::Certificate;
-pub use crowd::{Contact, Crowd, CrowdError, Event, EventKind, Member, Plastic, Timing, Upkeep};
 pub use damping::Damping;
 pub use energy::Energies;
 pub use error::SnakeError;
@@ -81,11 +79,16 @@ pub use force::{
 pub use ledger::Ledger;
 pub use maps::Maps;
 pub use modes::ModeOfMotion;
+pub use outcome::{Outcome, Until};
 pub use pace::Pace;
+pub use parameter::Parameter;
 pub use rest::Rest;
-pub use run::{Outcome, Until, run};
 pub use schedule::{Schedule, Schedules};
 pub use settling::{Settling, TimeToRest};
+pub use simulation::{
+    Contact, Edit, Entry, Event, EventKind, Member, Plastic, RuleKey, Rules, Simulation,
+    SimulationError, Stepping, Upkeep,
+};
 pub use snake::Snake;
 pub use tips::Tips;
 pub use turn::Turn;

@@ -5,7 +5,7 @@ use integrator::{Adaptive, Limit, Scheme, SchemeError, Start, State, Stepper, Su
 use crate::{Certificate, Snake};
 
 /// A stepper of equal steps, or one that chooses them by their error.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub enum Pace {
     /// Every step as long as the last.
     Fixed(Box<dyn Stepper>),

@@ -80,7 +80,7 @@ impl Verdict {
 }
 
 /// Follows a run and judges it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Watch {
     rest: Rest,
     closed: bool,
@@ -95,6 +95,8 @@ pub(crate) struct Watch {
     late: Option<(Vec<DVec2>, f64)>,
     /// Steps taken before the first window begins to count.
     looks: u64,
+    /// How long the window was that has just ended.
+    ended: Option<f64>,
     /// Most kinetic energy and largest force so far.
     liveliest: f64,
     strongest: f64,
@@ -122,6 +124,7 @@ impl Watch {
             since: state.t,
             late: None,
             looks: 0,
+            ended: None,
             liveliest: 0.0,
             strongest: 0.0,
             far: 0.0,
@@ -136,14 +139,8 @@ impl Watch {
         watch
     }
 
-    /// Look at the state after a step; None until a window ends. `push` is what other snakes push with, if there are any. O(n), and
-    /// the forces once a window.
-    pub(crate) fn look(
-        &mut self,
-        snake: &mut Snake,
-        state: &State,
-        push: &[DVec2],
-    ) -> Option<Verdict> {
+    /// Look at the state after a step; true where a window ends, which [`Watch::judge`] then judges. O(n).
+    pub(crate) fn look(&mut self, snake: &Snake, state: &State) -> bool {
         self.looks += 1;
         self.liveliest = self.liveliest.max(kinetic(snake, state));
         let mut away = 0.0_f64;
@@ -164,9 +161,22 @@ impl Watch {
             self.late = Some((state.x.clone(), state.t));
         }
         if self.looks < 8 || window < LAST * (state.t - self.begin) {
-            return None;
+            return false;
         }
-        let verdict = self.judge(snake, state, push, window);
+        self.ended = Some(window);
+        true
+    }
+
+    /// What is found at the end of a window; None within one. `push` is what other snakes push with, if there are
+    /// any. Asks for all forces.
+    pub(crate) fn judge(
+        &mut self,
+        snake: &mut Snake,
+        state: &State,
+        push: &[DVec2],
+    ) -> Option<Verdict> {
+        let window = self.ended.take()?;
+        let verdict = self.verdict(snake, state, push, window);
         self.looks = 0;
         self.mark.copy_from_slice(&state.x);
         self.since = state.t;
@@ -178,8 +188,13 @@ impl Watch {
         Some(verdict)
     }
 
-    /// At the end of a window.
-    fn judge(&mut self, snake: &mut Snake, state: &State, push: &[DVec2], window: f64) -> Verdict {
+    fn verdict(
+        &mut self,
+        snake: &mut Snake,
+        state: &State,
+        push: &[DVec2],
+        window: f64,
+    ) -> Verdict {
         if size(&state.x) < 0.01 * self.size {
             return Verdict::Collapsed;
         }

@@ -3,9 +3,9 @@
 use std::fmt;
 use std::ops::ControlFlow;
 
-use integrator::{Scheme, Start, State};
+use integrator::{Scheme, State};
 
-use crate::{Damping, Outcome, Snake, SnakeError, Until, run};
+use crate::{Damping, Outcome, Simulation, SimulationError, Snake, Stepping, Until};
 
 /// One run to rest, to be made under many dampings.
 #[derive(Debug, Clone)]
@@ -71,33 +71,28 @@ impl Settling {
     /// # Errors
     ///
     /// As [`Snake::damp`], and what the scheme refuses.
-    pub fn under(&self, rules: &[Damping]) -> Result<TimeToRest, SnakeError> {
-        let (mut snake, mut state) = (self.snake.clone(), self.state.clone());
+    pub fn under(&self, rules: &[Damping]) -> Result<TimeToRest, SimulationError> {
+        let mut snake = self.snake.clone();
         for rule in [Damping::Constant(0.0), Damping::Internal(0.0)]
             .iter()
             .chain(rules)
         {
-            snake.damp(*rule, &state)?;
+            snake.damp(*rule, &self.state)?;
         }
         let limit = self.scheme.step_limit(&snake);
         let dt = limit.map_or(self.dt, |limit| self.dt.min(0.9 * limit));
-        let mut stepper = self
-            .scheme
-            .start(&mut snake, &state, dt, Start::SecondOrder)?;
-        let (t, step) = (state.t, state.step);
-        let mut watch = |_: &mut Snake, _: &State| ControlFlow::Continue(());
-        let outcome = run(
-            &mut snake,
-            &mut *stepper,
-            &mut state,
-            &self.until,
-            &mut watch,
-        );
+        let stepping = Stepping {
+            force: true,
+            ..Stepping::of(self.scheme, dt)
+        };
+        let t = self.state.t;
+        let mut simulation = Simulation::of(snake, self.state.clone(), stepping)?;
+        let outcome = simulation.run(&self.until, &mut |_| ControlFlow::Continue(()))?;
         Ok(TimeToRest {
             rules: rules.to_vec(),
             outcome,
-            time: state.t - t,
-            steps: state.step - step,
+            time: simulation.t() - t,
+            steps: simulation.steps(),
         })
     }
 
@@ -106,7 +101,7 @@ impl Settling {
     /// # Errors
     ///
     /// As [`Settling::under`].
-    pub fn table(&self, rules: &[Vec<Damping>]) -> Result<Vec<TimeToRest>, SnakeError> {
+    pub fn table(&self, rules: &[Vec<Damping>]) -> Result<Vec<TimeToRest>, SimulationError> {
         rules.iter().map(|rules| self.under(rules)).collect()
     }
 
@@ -119,7 +114,12 @@ impl Settling {
     /// # Errors
     ///
     /// As [`Settling::under`].
-    pub fn best_constant(&self, low: f64, high: f64, tries: u32) -> Result<TimeToRest, SnakeError> {
+    pub fn best_constant(
+        &self,
+        low: f64,
+        high: f64,
+        tries: u32,
+    ) -> Result<TimeToRest, SimulationError> {
         let first = self.best_of(low, high, tries)?;
         let Some(Damping::Constant(gamma)) = first.rules.first().copied() else {
             return Ok(first);
@@ -130,7 +130,7 @@ impl Settling {
         Ok(if better { second } else { first })
     }
 
-    fn best_of(&self, low: f64, high: f64, tries: u32) -> Result<TimeToRest, SnakeError> {
+    fn best_of(&self, low: f64, high: f64, tries: u32) -> Result<TimeToRest, SimulationError> {
         let mut best = self.under(&[Damping::Constant(low)])?;
         let last = tries.max(2) - 1;
         for i in 1..=last {

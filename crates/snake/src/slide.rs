@@ -91,10 +91,10 @@ mod tests {
     use std::ops::ControlFlow;
 
     use elastic::{End, Material, Topology};
-    use integrator::{Scheme, Start, State};
+    use integrator::{Scheme, State};
 
     use super::*;
-    use crate::{Body, Outcome, Rest, Until, World, run};
+    use crate::{Body, Outcome, Rest, Simulation, Stepping, Until, World};
 
     /// A strip pinned at (0, 0) that hangs on a rail at its other end, stretched.
     fn strip(rail: &[DVec2], scheme: Scheme) -> (Outcome, State) {
@@ -113,19 +113,11 @@ mod tests {
             .collect();
         let mut snake = Snake::new(body, World::default()).unwrap();
         snake.slide(12, Some((rail, false))).unwrap();
-        let mut state = State::at_rest(start);
-        let mut stepper = scheme
-            .start(&mut snake, &state, 0.02, Start::SecondOrder)
-            .unwrap();
+        let stepping = Stepping::of(scheme, 0.02);
+        let mut simulation = Simulation::of(snake, State::at_rest(start), stepping).unwrap();
         let until = Until::at_rest(Rest::default(), 20_000);
-        let outcome = run(
-            &mut snake,
-            &mut *stepper,
-            &mut state,
-            &until,
-            &mut |_, _| ControlFlow::Continue(()),
-        );
-        (outcome, state)
+        let outcome = simulation.run(&until, &mut |_| ControlFlow::Continue(()));
+        (outcome.unwrap(), simulation.members()[0].state().clone())
     }
 
     #[test]

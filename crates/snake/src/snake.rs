@@ -45,10 +45,11 @@ pub struct Snake {
     pub(crate) rails: Vec<(usize, outline::Rail)>,
     pub(crate) deformation: Vec<DVec2>,
     pub(crate) account: Option<Account>,
-    /// Someone changed the body: the schemes are to be told.
-    pub(crate) changed: bool,
-    /// How often anyone changed anything, and how often schemes asked for forces, in all and before that.
-    pub(crate) changes: u64,
+    /// [`System::revision`]: another number after every change of what schemes have their numbers from.
+    pub(crate) revision: u64,
+    /// How often anyone changed anything from outside, and how often schemes asked for forces, in all and
+    /// before that.
+    pub(crate) edits: u64,
     pub(crate) asked: u64,
     pub(crate) asked_before: u64,
     /// Until when someone means to change something.
@@ -95,8 +96,8 @@ impl Snake {
             pushes,
             grasped: vec![false; n],
             account: None,
-            changed: false,
-            changes: 0,
+            revision: 0,
+            edits: 0,
             asked: 0,
             asked_before: 0,
             expected: f64::NEG_INFINITY,
@@ -120,6 +121,13 @@ impl Snake {
     #[must_use]
     pub const fn body(&self) -> &Body {
         &self.body
+    }
+
+    /// How often it has been changed from outside. A scheme that it has been stepped by is to be told of it
+    /// ([`integrator::Stepper::resume`]); a [`Simulation`](crate::Simulation) does.
+    #[must_use]
+    pub const fn edits(&self) -> u64 {
+        self.edits
     }
 
     /// How many implicit steps or sub-steps so far have been made by rounds that did not come to agree
@@ -236,8 +244,8 @@ impl Snake {
 
     /// Settle what depends on the curve that a run begins with: which way is out for a pressure,
     /// and the sign of an automatic
-    /// one. What is settled stays. [`run`](crate::run) and crowds ask for it; whoever steps a snake by hand
-    /// may, and else the first force that acts does.
+    /// one. What is settled stays. A [`Simulation`](crate::Simulation) asks for it; where a snake is stepped without one,
+    /// the first force that acts does.
     pub fn settle(&mut self, state: &State) {
         if state.len() == self.len() {
             let (forces, curve) = self.forces(state.t, &state.x, &state.v);
@@ -275,7 +283,8 @@ impl Snake {
 
     /// Keep what belongs to the run and not to the body: what `old` was told of it.
     pub(crate) const fn stay(&mut self, old: &Self) {
-        (self.changes, self.asked) = (old.changes, old.asked);
+        (self.edits, self.asked) = (old.edits, old.asked);
+        self.revision = old.revision + 1;
         (self.renewal, self.expected, self.span) = (old.renewal, old.expected, old.span);
         (self.inertia, self.unsettled) = (old.inertia, old.unsettled);
     }
@@ -388,10 +397,15 @@ impl System for Snake {
         &self.stiffness
     }
 
-    fn advance(&mut self, t: f64, x: &[DVec2]) -> bool {
-        let changed = std::mem::take(&mut self.changed);
+    fn advance(&mut self, t: f64, x: &[DVec2]) {
         let stands = self.stand(t, x);
-        changed | stands | self.renew(t, x)
+        if self.renew(t, x) | stands {
+            self.revision += 1;
+        }
+    }
+
+    fn revision(&self) -> u64 {
+        self.revision
     }
 
     fn depends_on_place(&self) -> bool {
@@ -448,6 +462,14 @@ impl System for Snake {
         still
             && self.world.forces.iter().all(Acting::is_constant)
             && !self.world.walls.iter().any(Wall::is_spring)
+    }
+
+    fn external_depends_on_velocity(&self) -> bool {
+        let damps =
+            |wall: &Wall| matches!(wall.law(), WallLaw::Penalty { damping, .. } if damping > 0.0);
+        self.inner.is_some()
+            || self.world.forces.iter().any(Acting::depends_on_velocity)
+            || self.world.walls.iter().any(damps)
     }
 
     fn contacts(

@@ -10,10 +10,10 @@ use crate::Turning;
 /// q, c, θ  →  x = c + R(θ) q                             (report Eq. 5.2)
 /// ```
 ///
-/// So [`run`](crate::run), records and ledgers take it as any other stepper; give them the snake in [`Frame::turning`](crate::Frame::turning),
+/// So simulations take it as any other stepper; give them the snake in [`Frame::turning`](crate::Frame::turning),
 /// whose angle is the same, and its energies are those of the turned rest shape. The snake that moves is the one the frame was
 /// made of: what a hand changes during the run is not felt.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct TurningStepper {
     turning: Turning,
     inner: Box<dyn Stepper>,
@@ -78,6 +78,10 @@ impl TurningStepper {
 }
 
 impl Stepper for TurningStepper {
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+
     fn step(&mut self, system: &mut dyn System, space: &mut State) -> Result<(), Fault> {
         let before = self.turning.lacks_any().then(|| self.state.clone());
         if let Err(mut fault) = self.inner.step(&mut self.turning, &mut self.state) {

@@ -6,13 +6,15 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
+mod common;
+
 use std::ops::ControlFlow::Continue;
 
 use elastic::{Material, Topology};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use proptest as _;
-use snake::{Body, Ledger, Schedule, Snake, Term, Turning, TurningStepper, Until, World, run};
+use snake::{Body, Ledger, Schedule, Snake, Term, Turning, TurningStepper, World};
 use {banded as _, field as _, outline as _, thiserror as _};
 
 fn ellipse(a: f64, b: f64, n: usize) -> Vec<DVec2> {
@@ -30,21 +32,16 @@ fn spread(
 ) -> (f64, f64) {
     let first = ledger.energies(snake, state).total();
     let (mut off, mut most) = (0.0_f64, 0.0_f64);
-    run(
-        snake,
-        stepper,
-        state,
-        &Until::steps(steps),
-        &mut |snake, state| {
-            ledger.book(snake, state).unwrap();
-            let energies = ledger.energies(snake, state);
-            off = off.max((energies.total() - first).abs());
-            let terms = energies.values();
-            most = terms.iter().fold(most, |most, term| most.max(term.abs()));
-            hand(snake, state);
-            Continue(())
-        },
-    );
+    common::run(snake, stepper, state, steps, &mut |snake, state| {
+        ledger.book(snake, state).unwrap();
+        let energies = ledger.energies(snake, state);
+        off = off.max((energies.total() - first).abs());
+        let terms = energies.values();
+        most = terms.iter().fold(most, |most, term| most.max(term.abs()));
+        hand(snake, state);
+        Continue(())
+    })
+    .unwrap();
     (off, most)
 }
 

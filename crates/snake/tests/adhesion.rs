@@ -4,11 +4,13 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
+mod common;
+
 use elastic::{Material, Topology};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use proptest as _;
-use snake::{Body, Contact, Crowd, Pressure, Rest, Snake, Timing, Upkeep, World};
+use snake::{Body, Contact, Pressure, Rest, Simulation, Snake, Stepping, Upkeep, World};
 use {banded as _, field as _, outline as _, thiserror as _};
 
 const GAP: f64 = 0.1;
@@ -26,11 +28,12 @@ const STICKY: Contact = Contact {
     own: false,
 };
 
-fn timing(dt: f64) -> Timing {
-    Timing {
+fn timing(dt: f64) -> Stepping {
+    Stepping {
         scheme: Scheme::Leapfrog,
         dt,
         tolerance: None,
+        each: false,
         start: Start::SecondOrder,
         force: false,
     }
@@ -76,7 +79,7 @@ fn circle_through(points: &[DVec2]) -> (DVec2, f64) {
     (center, (spread + at.length_squared()).sqrt())
 }
 
-fn settled(n: usize, adhesion: f64) -> Crowd {
+fn settled(n: usize, adhesion: f64) -> Simulation {
     let law = Contact {
         adhesion,
         // five times the spacing of 240 nodes: on coarser ones the end of a border catches on every node
@@ -84,10 +87,16 @@ fn settled(n: usize, adhesion: f64) -> Crowd {
         damping: 40.0,
         ..STICKY
     };
-    let mut crowd = Crowd::new(bags(n, 0.6), timing(0.006), Some(law), Upkeep::default()).unwrap();
+    let mut crowd = common::simulation(
+        bags(n, 0.6),
+        timing(0.006),
+        (Some(law), Upkeep::default()),
+        true,
+    )
+    .unwrap();
     crowd.watch(Rest::default());
     while crowd.t() < 60.0 && !crowd.is_at_rest() {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
     }
     crowd
 }
@@ -99,11 +108,11 @@ fn two_equal_bags_part_at_the_angle_of_youngs_equation() {
         let mut centers = Vec::new();
         let mut found = (0.0, 0.0);
         for member in crowd.members() {
-            let x = &member.state.x;
+            let x = &member.state().x;
             let length: f64 = (0..x.len())
                 .map(|i| x[i].distance(x[(i + 1) % x.len()]))
                 .sum();
-            let body = member.snake.body();
+            let body = member.snake().body();
             let tension = 0.02 * length / (body.spacing * x.len() as f64);
             let free: Vec<DVec2> = x.iter().copied().filter(|p| p.x.abs() > 0.9).collect();
             let (center, radius) = circle_through(&free);
@@ -125,7 +134,7 @@ fn two_equal_bags_part_at_the_angle_of_youngs_equation() {
 #[test]
 fn without_adhesion_they_touch_and_no_more() {
     let crowd = settled(60, 0.0);
-    let [one, two] = [0, 1].map(|k| elastic::center(&crowd.members()[k].state.x, None));
+    let [one, two] = [0, 1].map(|k| elastic::center(&crowd.members()[k].state().x, None));
     assert!((one.distance(two) - 6.12).abs() < 0.01);
 }
 
@@ -135,11 +144,17 @@ fn adhesion_keeps_energy_and_momentum() {
     for v in &mut snakes[0].1.v {
         *v = DVec2::new(0.1, 0.3);
     }
-    let mut crowd = Crowd::new(snakes, timing(1e-3), Some(STICKY), Upkeep::default()).unwrap();
+    let mut crowd = common::simulation(
+        snakes,
+        timing(1e-3),
+        (Some(STICKY), Upkeep::default()),
+        true,
+    )
+    .unwrap();
     let (p, first) = (crowd.momentum(), crowd.energies());
     let (mut off, mut moved, mut least) = (0.0_f64, 0.0_f64, 0.0_f64);
     for _ in 0..8000 {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
         let now = crowd.energies();
         off = off.max((now.total() - first.total()).abs());
         moved = moved.max(now.kinetic);
@@ -159,7 +174,7 @@ fn they_lie_no_deeper_in_each_other_than_the_stop() {
     assert!(crowd.deepest() < STICKY.stop, "{}", crowd.deepest());
     // in the middle of the border
     let inner = |k: usize| {
-        let x = &crowd.members()[k].state.x;
+        let x = &crowd.members()[k].state().x;
         let side = x.iter().filter(|p| p.y.abs() < 0.5 && p.x.abs() < 1.0);
         let (sum, count) = side.fold((0.0, 0.0), |(sum, count), p| (sum + p.x, count + 1.0));
         sum / count

@@ -4,6 +4,8 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
+mod common;
+
 use elastic::{End, Material, Topology};
 use field::{EdgeForce, Grid, Smoothing, TwoRegions, edge_force};
 use glam::{DMat2, DVec2};
@@ -11,7 +13,7 @@ use integrator::{Scheme, Start, State};
 use proptest::prelude::*;
 use snake::{
     Acting, Body, Curve, Force, ImageForce, Ledger, Pressure, RegionForce, Rest, Sampling,
-    Schedule, Snake, SnakeError, Until, World, run,
+    Schedule, Simulation, Snake, SnakeError, Stepping, Until, World,
 };
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
@@ -207,25 +209,20 @@ fn inflate(image: ImageForce, pressure: Acting, tension: f64) -> Vec<DVec2> {
         .with_material(Material::uniform(0.0, tension, 0.0))
         .with_damping(3.0);
     let world = World::default().with(image).with_acting(pressure);
-    let mut snake = Snake::new(body, world).unwrap();
-    let mut state = State::at_rest(x);
-    let mut stepper = Scheme::Leapfrog
-        .start(&mut snake, &state, 0.05, Start::SecondOrder)
-        .unwrap();
-    run(
-        &mut snake,
-        &mut *stepper,
-        &mut state,
-        &Until::at_rest(Rest::default(), 4000),
-        &mut |_, state| {
-            // a leak ends outside the picture
-            if state.x.iter().any(|p| p.distance(MIDDLE) > 55.0) {
-                return ControlFlow::Break(());
-            }
-            ControlFlow::Continue(())
-        },
-    );
-    state.x
+    let snake = Snake::new(body, world).unwrap();
+    let stepping = Stepping::of(Scheme::Leapfrog, 0.05);
+    let mut simulation = Simulation::of(snake, State::at_rest(x), stepping).unwrap();
+    let until = Until::at_rest(Rest::default(), 4000);
+    let end = simulation.run(&until, &mut |simulation| {
+        // a leak ends outside the picture
+        let x = &simulation.members()[0].state().x;
+        if x.iter().any(|p| p.distance(MIDDLE) > 55.0) {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    });
+    end.unwrap();
+    simulation.members()[0].state().x.clone()
 }
 
 /// Nearest and farthest node from the middle.
@@ -341,16 +338,17 @@ fn squeezed(pressure: Option<Pressure>) -> f64 {
     let mut stepper = Scheme::Leapfrog
         .start(&mut snake, &state, 0.02, Start::SecondOrder)
         .unwrap();
-    run(
+    common::run(
         &mut snake,
         &mut *stepper,
         &mut state,
-        &Until::steps(3000),
+        3000,
         &mut |snake, state| {
             ledger.book(snake, state).unwrap();
             ControlFlow::Continue(())
         },
-    );
+    )
+    .unwrap();
     let energies = ledger.energies(&mut snake, &state);
     let largest = energies
         .values()

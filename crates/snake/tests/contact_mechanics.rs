@@ -5,13 +5,15 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
+mod common;
+
 use std::ops::ControlFlow;
 
 use elastic::{Material, Topology};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use proptest as _;
-use snake::{Body, Energies, Ledger, Snake, Until, Wall, WallLaw, World, run};
+use snake::{Body, Energies, Ledger, Snake, Wall, WallLaw, World};
 use {banded as _, field as _, outline as _, thiserror as _};
 
 /// Angles of a slope against the horizontal, in degrees: axes, the usual, and any.
@@ -75,16 +77,17 @@ fn after(
         .unwrap();
     let first = ledger.energies(snake, &state);
     let mut stepper = scheme.start(snake, &state, dt, Start::SecondOrder).unwrap();
-    run(
+    common::run(
         snake,
         &mut *stepper,
         &mut state,
-        &Until::steps(steps),
+        steps,
         &mut |snake, state| {
             ledger.book(snake, state).unwrap();
             ControlFlow::Continue(())
         },
-    );
+    )
+    .unwrap();
     assert_eq!(state.step, steps, "{scheme} arrives");
     let last = ledger.energies(snake, &state);
     (state, first, last)

@@ -4,13 +4,15 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
+mod common;
+
 use elastic::{Material, Topology};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use proptest as _;
 use snake::{
-    Body, Contact, Crowd, EventKind, Plastic, Pressure, Rest, Snake, Timing, Upkeep, Wall, WallLaw,
-    World,
+    Body, Contact, EventKind, Plastic, Pressure, Rest, Simulation, Snake, Stepping, Upkeep, Wall,
+    WallLaw, World,
 };
 use {banded as _, field as _, outline as _, thiserror as _};
 
@@ -27,11 +29,12 @@ const LAYER: Contact = Contact {
     own: false,
 };
 
-fn timing(scheme: Scheme, dt: f64) -> Timing {
-    Timing {
+fn timing(scheme: Scheme, dt: f64) -> Stepping {
+    Stepping {
         scheme,
         dt,
         tolerance: None,
+        each: false,
         start: Start::SecondOrder,
         force: false,
     }
@@ -66,12 +69,17 @@ fn two_balls_that_meet_keep_momentum_under_every_scheme() {
         Scheme::Imex,
         Scheme::Newmark,
     ] {
-        let mut crowd =
-            Crowd::new(two(), timing(scheme, 2e-3), Some(LAYER), Upkeep::default()).unwrap();
+        let mut crowd = common::simulation(
+            two(),
+            timing(scheme, 2e-3),
+            (Some(LAYER), Upkeep::default()),
+            true,
+        )
+        .unwrap();
         let p = crowd.momentum();
         let (mut met, mut deepest) = (0.0_f64, 0.0_f64);
         for _ in 0..2500 {
-            crowd.step().unwrap();
+            assert!(crowd.step().unwrap().is_continue());
             met = met.max(crowd.energies().forces[1]);
             deepest = deepest.max(crowd.deepest());
         }
@@ -95,17 +103,17 @@ fn contacts_alone_keep_angular_momentum_too() {
             .with_material(Material::uniform(0.0, 0.0, 0.0));
         snake.set_body(dust).unwrap();
     }
-    let mut crowd = Crowd::new(
+    let mut crowd = common::simulation(
         snakes,
         timing(Scheme::Leapfrog, 2e-3),
-        Some(LAYER),
-        Upkeep::default(),
+        (Some(LAYER), Upkeep::default()),
+        true,
     )
     .unwrap();
     let (p, l) = (crowd.momentum(), crowd.angular_momentum());
     let mut met = 0.0_f64;
     for _ in 0..2500 {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
         met = met.max(crowd.energies().forces[1]);
     }
     assert!(met > 0.1, "they never met");
@@ -114,13 +122,19 @@ fn contacts_alone_keep_angular_momentum_too() {
 }
 
 /// Largest stray of the sum of all terms at the end of a step, the sum at the start, and the crowd after a time of 5.
-fn stray(snakes: Vec<(Snake, State)>, scheme: Scheme, dt: f64, law: Contact) -> (f64, f64, Crowd) {
+fn stray(
+    snakes: Vec<(Snake, State)>,
+    scheme: Scheme,
+    dt: f64,
+    law: Contact,
+) -> (f64, f64, Simulation) {
     let timing = timing(scheme, dt);
-    let mut crowd = Crowd::new(snakes, timing, Some(law), Upkeep::default()).unwrap();
+    let mut crowd =
+        common::simulation(snakes, timing, (Some(law), Upkeep::default()), true).unwrap();
     let first = crowd.energies().total();
     let mut gap = 0.0_f64;
     while crowd.t() < 5.0 - 0.5 * dt {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
         gap = gap.max((crowd.energies().total() - first).abs());
     }
     (gap, first, crowd)
@@ -161,11 +175,12 @@ fn what_kicks_hold_back_is_a_leapfrogs_swing_and_no_more() {
         snake.set_body(dust).unwrap();
     }
     let timing = timing(Scheme::Leapfrog, 2e-3);
-    let mut crowd = Crowd::new(snakes, timing, Some(LAYER), Upkeep::default()).unwrap();
+    let mut crowd =
+        common::simulation(snakes, timing, (Some(LAYER), Upkeep::default()), true).unwrap();
     let first = crowd.energies();
     let (mut held, mut swing, mut lost) = (0.0_f64, 0.0_f64, 0.0_f64);
     for _ in 0..2500 {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
         let now = crowd.energies();
         assert!((now.total() - first.total()).abs() < 1e-13 * first.total());
         if crowd.steps() < 800 {
@@ -189,21 +204,18 @@ fn without_an_account_a_crowd_moves_the_same() {
         friction: 0.3,
         ..LAYER
     };
-    let start = || {
-        Crowd::new(
-            two(),
-            timing(Scheme::Leapfrog, 2e-3),
-            Some(law),
-            Upkeep::default(),
-        )
+    let start = |energies: bool| {
+        let stepping = Stepping::of(Scheme::Leapfrog, 2e-3);
+        let rules = (Some(law), Upkeep::default());
+        common::simulation(two(), stepping, rules, energies).unwrap()
     };
-    let (mut with, mut without) = (start().unwrap(), start().unwrap().without_account());
+    let (mut with, mut without) = (start(true), start(false));
     for _ in 0..1500 {
-        with.step().unwrap();
-        without.step().unwrap();
+        assert!(with.step().unwrap().is_continue());
+        assert!(without.step().unwrap().is_continue());
     }
     for (a, b) in with.members().iter().zip(without.members()) {
-        assert_eq!(a.state, b.state);
+        assert_eq!(a.state(), b.state());
     }
     assert!(with.energies().contact > 0.0);
     assert!(without.energies().contact.abs() < f64::MIN_POSITIVE);
@@ -240,16 +252,16 @@ fn a_pile_in_a_box_comes_to_lie_without_deep_overlap() {
         friction: 0.3,
         ..LAYER
     };
-    let mut crowd = Crowd::new(
+    let mut crowd = common::simulation(
         snakes,
         timing(Scheme::Leapfrog, 2e-3),
-        Some(law),
-        Upkeep::default(),
+        (Some(law), Upkeep::default()),
+        true,
     )
     .unwrap();
     let mut deepest = 0.0_f64;
     for _ in 0..6000 {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
         deepest = deepest.max(crowd.deepest());
     }
     // the stop, and the way of two steps at the speed of the fall, 12 at g 3
@@ -279,16 +291,16 @@ fn two_balls_pressed_together_come_to_rest_against_each_other() {
         }
         snakes.push((Snake::new(body.with_damping(2.0), world).unwrap(), state));
     }
-    let mut crowd = Crowd::new(
+    let mut crowd = common::simulation(
         snakes,
         timing(Scheme::Leapfrog, 5e-3),
-        Some(LAYER),
-        Upkeep::default(),
+        (Some(LAYER), Upkeep::default()),
+        true,
     )
     .unwrap();
     crowd.watch(Rest::default());
     while crowd.steps() < 30_000 && !crowd.is_at_rest() {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
     }
     assert!(crowd.is_at_rest());
     let energies = crowd.energies();
@@ -312,16 +324,16 @@ fn re_spacing_keeps_mass_momentum_and_spin_and_books_its_energy() {
         stretch: Some(1.5),
         ..Upkeep::default()
     };
-    let mut crowd = Crowd::new(
+    let mut crowd = common::simulation(
         vec![free((body, state))],
         timing(Scheme::Leapfrog, 1e-3),
-        None,
-        upkeep,
+        (None, upkeep),
+        true,
     )
     .unwrap();
     let (m, p, total) = (mass(&crowd), crowd.momentum(), crowd.energies().total());
     for _ in 0..2000 {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
     }
     let respaced = crowd
         .events()
@@ -329,7 +341,7 @@ fn re_spacing_keeps_mass_momentum_and_spin_and_books_its_energy() {
         .filter(|e| matches!(e.kind, EventKind::Respaced { from, to } if from != to))
         .count();
     assert!(respaced > 0);
-    assert!(crowd.members()[0].state.len() > 40);
+    assert!(crowd.members()[0].state().len() > 40);
     assert!((mass(&crowd) / m - 1.0).abs() < 1e-12);
     assert!(crowd.momentum().distance(p) < 1e-9 * m);
     let after = crowd.energies();
@@ -354,9 +366,10 @@ fn a_curve_whose_nodes_have_come_closer_makes_its_steps_in_parts() {
             ..Upkeep::default()
         };
         let time = timing(Scheme::Leapfrog, dt);
-        let mut crowd = Crowd::new(vec![(snake, state)], time, None, upkeep).unwrap();
+        let mut crowd =
+            common::simulation(vec![(snake, state)], time, (None, upkeep), true).unwrap();
         while crowd.t() < 60.0 {
-            crowd.step().unwrap();
+            assert!(crowd.step().unwrap().is_continue());
         }
         let cut = crowd
             .events()
@@ -367,7 +380,7 @@ fn a_curve_whose_nodes_have_come_closer_makes_its_steps_in_parts() {
                 _ => None,
             });
         let energies = crowd.energies();
-        let x = &crowd.members()[0].state.x;
+        let x = &crowd.members()[0].state().x;
         let radius = x.iter().map(|p| p.length()).sum::<f64>() / x.len() as f64;
         (radius, x.len(), cut, energies)
     };
@@ -384,9 +397,9 @@ fn a_curve_whose_nodes_have_come_closer_makes_its_steps_in_parts() {
 }
 
 /// Mass of all members.
-fn mass(crowd: &Crowd) -> f64 {
+fn mass(crowd: &Simulation) -> f64 {
     let each = crowd.members().iter().map(|member| {
-        let body = member.snake.body();
+        let body = member.snake().body();
         body.spacing * body.mass.to_vec(body.len()).iter().sum::<f64>()
     });
     each.sum()
@@ -412,9 +425,9 @@ fn what_is_left_of_two_curves_that_merge_keeps_its_mass_and_its_momentum() {
         ..Upkeep::default()
     };
     let time = timing(Scheme::Leapfrog, 1e-3);
-    let mut crowd = Crowd::new(snakes, time, None, upkeep).unwrap();
+    let mut crowd = common::simulation(snakes, time, (None, upkeep), true).unwrap();
     let (m, p) = (mass(&crowd), crowd.momentum());
-    crowd.step().unwrap();
+    assert!(crowd.step().unwrap().is_continue());
     assert_eq!(crowd.members().len(), 1, "{:?}", crowd.events());
     // each circle loses the arc that lies in the other, an angle of 2 acos(2/3) of it
     let left = 1.0 - (2.0_f64 / 3.0).acos() / std::f64::consts::PI;
@@ -442,16 +455,16 @@ fn an_outline_pinched_in_two_becomes_two() {
         least_area: Some(0.5),
         ..Upkeep::default()
     };
-    let mut crowd = Crowd::new(
+    let mut crowd = common::simulation(
         vec![free((body, state))],
         timing(Scheme::Leapfrog, 5e-3),
-        None,
-        upkeep,
+        (None, upkeep),
+        true,
     )
     .unwrap();
     let (before, mut last, mut loops) = (mass(&crowd), mass(&crowd), 0);
     for _ in 0..2000 {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
         let cut = |event: &&snake::Event| matches!(event.kind, EventKind::LoopRemoved { .. });
         let removed = crowd.events().iter().filter(cut).count();
         let now = mass(&crowd);
@@ -467,9 +480,9 @@ fn an_outline_pinched_in_two_becomes_two() {
     assert!(last > 0.85 * before, "{last} {before}");
     assert_eq!(crowd.members().len(), 2, "{:?}", crowd.events());
     for member in crowd.members() {
-        assert!(elastic::signed_area(&member.state.x) > 0.5);
+        assert!(elastic::signed_area(&member.state().x) > 0.5);
         assert!(
-            outline::crossings(&member.state.x, true)
+            outline::crossings(&member.state().x, true)
                 .unwrap()
                 .is_empty()
         );
@@ -490,13 +503,15 @@ fn a_plastic_ring_keeps_a_dent_and_an_elastic_one_does_not() {
             ..Upkeep::default()
         };
         let snakes = vec![free((body.with_damping(3.0), state))];
-        let mut crowd = Crowd::new(snakes, timing(Scheme::Leapfrog, 2e-3), None, upkeep).unwrap();
+        let mut crowd =
+            common::simulation(snakes, timing(Scheme::Leapfrog, 2e-3), (None, upkeep), true)
+                .unwrap();
         let first = crowd.energies().total();
         for _ in 0..10_000 {
-            crowd.step().unwrap();
+            assert!(crowd.step().unwrap().is_continue());
         }
         assert!((crowd.energies().total() / first - 1.0).abs() < 1e-3);
-        let x = &crowd.members()[0].state.x;
+        let x = &crowd.members()[0].state().x;
         let wide = |k: usize| x.iter().map(|p| p[k].abs()).fold(0.0, f64::max);
         wide(0) / wide(1)
     };

@@ -4,11 +4,15 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
+mod common;
+
 use elastic::{Material, Topology};
 use glam::DVec2;
 use integrator::{Scheme, Start, State, System};
 use proptest as _;
-use snake::{Body, Contact, Crowd, Frame, Rest, Snake, Timing, Upkeep, Wall, WallLaw, World};
+use snake::{
+    Body, Contact, Frame, Rest, Simulation, Snake, Stepping, Upkeep, Wall, WallLaw, World,
+};
 use {banded as _, field as _, outline as _, thiserror as _};
 
 const G: f64 = 4.0;
@@ -28,10 +32,11 @@ const ROUGH: Contact = Contact {
     own: false,
 };
 
-const TIMING: Timing = Timing {
+const TIMING: Stepping = Stepping {
     scheme: Scheme::Leapfrog,
     dt: 2e-3,
     tolerance: None,
+    each: false,
     start: Start::SecondOrder,
     force: false,
 };
@@ -63,27 +68,27 @@ fn on(law: WallLaw, count: u32, slope: f64, frame: Frame) -> Vec<(Snake, State)>
     (0..count).map(each).collect()
 }
 
-fn crowd(snakes: Vec<(Snake, State)>, contact: Contact) -> Crowd {
-    Crowd::new(snakes, TIMING, Some(contact), Upkeep::default()).unwrap()
+fn crowd(snakes: Vec<(Snake, State)>, contact: Contact) -> Simulation {
+    common::simulation(snakes, TIMING, (Some(contact), Upkeep::default()), true).unwrap()
 }
 
-fn centers(crowd: &Crowd) -> Vec<DVec2> {
+fn centers(crowd: &Simulation) -> Vec<DVec2> {
     let each = crowd.members().iter();
-    each.map(|m| elastic::center(&m.state.x, None)).collect()
+    each.map(|m| elastic::center(&m.state().x, None)).collect()
 }
 
-fn go(crowd: &mut Crowd, time: f64) {
+fn go(crowd: &mut Simulation, time: f64) {
     while crowd.t() < time {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
     }
 }
 
 /// Mean acceleration of all balls down the slope between two times, from their speeds.
-fn acceleration(crowd: &mut Crowd, from: f64, to: f64) -> f64 {
+fn acceleration(crowd: &mut Simulation, from: f64, to: f64) -> f64 {
     let mass: f64 = crowd
         .members()
         .iter()
-        .map(|m| m.snake.mass().iter().sum::<f64>() * m.snake.body().spacing)
+        .map(|m| m.snake().mass().iter().sum::<f64>() * m.snake().body().spacing)
         .sum();
     go(crowd, from);
     let (t, p) = (crowd.t(), crowd.momentum().x);
@@ -143,9 +148,10 @@ fn a_hoop_that_may_turn_rolls_at_half_of_g_sine() {
         damping: 0.0,
         ..ROUGH
     };
-    let timing = Timing { dt: 2e-4, ..TIMING };
+    let timing = Stepping { dt: 2e-4, ..TIMING };
     let snakes = on(hard, 1, slope, Frame::turning());
-    let mut crowd = Crowd::new(snakes, timing, Some(law), Upkeep::default()).unwrap();
+    let mut crowd =
+        common::simulation(snakes, timing, (Some(law), Upkeep::default()), true).unwrap();
     let found = acceleration(&mut crowd, 1.0, 4.0);
     // it rolls over the 24 corners of a polygon
     assert!((found / exact - 1.0).abs() < 0.02, "{found} {exact}");
@@ -176,7 +182,7 @@ fn a_ball_held_on_a_rough_curve_is_at_rest_and_its_account_closes() {
     let first = crowd.energies().total();
     let (mut off, mut most) = (0.0_f64, 0.0_f64);
     while crowd.steps() < 20_000 && !crowd.is_at_rest() {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
         let energies = crowd.energies();
         off = off.max((energies.total() - first).abs());
         most = most.max(energies.forces[0].abs().max(energies.damping));
@@ -211,11 +217,11 @@ fn friction_that_will_not_do_is_refused_by_name() {
             "the friction at walls",
         ),
     ] {
-        let refused = Crowd::new(
+        let refused = common::simulation(
             balls(1, 0.0, Frame::corrected()),
             TIMING,
-            Some(contact),
-            Upkeep::default(),
+            (Some(contact), Upkeep::default()),
+            true,
         );
         let message = refused.unwrap_err().to_string();
         assert!(message.contains(name), "{message}");

@@ -4,13 +4,15 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
+mod common;
+
 use std::ops::ControlFlow;
 
 use elastic::{End, Material, Profile, Topology};
 use glam::DVec2;
 use integrator::{Scheme, Start, State, System};
 use proptest::prelude::*;
-use snake::{Body, Center, Frame, Outcome, Schedule, Snake, Until, Wall, WallLaw, World, run};
+use snake::{Body, Center, Frame, Outcome, Schedule, Snake, Stepping, Until, Wall, WallLaw, World};
 
 const N: usize = 9;
 
@@ -162,9 +164,9 @@ proptest! {
         let begin = snake.center(&state.x);
         let dt = 0.2 * scheme.step_limit(&snake).unwrap_or(0.5).min(0.5);
         let mut stepper = scheme.start(&mut snake, &state, dt, Start::SecondOrder).unwrap();
-        run(&mut snake, &mut *stepper, &mut state, &Until::steps(50), &mut |_, _| {
+        common::run(&mut snake, &mut *stepper, &mut state, 50, &mut |_, _| {
             ControlFlow::Continue(())
-        });
+        }).unwrap();
         let t = 50.0 * dt;
         let fallen = snake.center(&state.x) - begin;
         // both schemes are exact for a uniform acceleration without damping
@@ -215,13 +217,10 @@ fn pinned_ends_stay_where_they_are_to_the_bit() {
         let Ok(mut stepper) = scheme.start(&mut snake, &state, dt, Start::SecondOrder) else {
             continue;
         };
-        run(
-            &mut snake,
-            &mut *stepper,
-            &mut state,
-            &Until::steps(40),
-            &mut |_, _| ControlFlow::Continue(()),
-        );
+        common::run(&mut snake, &mut *stepper, &mut state, 40, &mut |_, _| {
+            ControlFlow::Continue(())
+        })
+        .unwrap();
         assert_eq!(state.x[0], nodes[0], "{}", scheme.name());
         assert_eq!(state.x[N - 1], nodes[N - 1], "{}", scheme.name());
         assert!(state.x[N / 2].y > nodes[N / 2].y, "{}", scheme.name());
@@ -245,11 +244,11 @@ fn bounce(law: WallLaw, tether: f64) -> (f64, f64) {
         .unwrap();
     let mut highest = f64::NEG_INFINITY;
     let mut most = 0.0_f64;
-    run(
+    common::run(
         &mut snake,
         &mut *stepper,
         &mut state,
-        &Until::steps(40_000),
+        40_000,
         &mut |snake, state| {
             let speed = state.v.iter().map(|v| v.y).sum::<f64>() / state.v.len() as f64;
             highest = highest.max(speed);
@@ -260,7 +259,8 @@ fn bounce(law: WallLaw, tether: f64) -> (f64, f64) {
                 ControlFlow::Continue(())
             }
         },
-    );
+    )
+    .unwrap();
     (highest / 2.0, most / before)
 }
 
@@ -363,17 +363,18 @@ fn d67_a_smooth_wall_squeezes_and_nothing_bulges() {
         .start(&mut snake, &state, dt, Start::FirstOrder)
         .unwrap();
     let (mut most, mut e) = (DVec2::ZERO, vec![DVec2::ZERO; 24]);
-    run(
+    common::run(
         &mut snake,
         &mut *stepper,
         &mut state,
-        &Until::steps(200),
+        200,
         &mut |snake, state| {
             snake.deformation_into(&state.x, &mut e);
             most = e.iter().fold(most, |most, e| most.max(e.abs()));
             ControlFlow::Continue(())
         },
-    );
+    )
+    .unwrap();
     // squeezed by tens of percent along x; along y only rounding, some 1e-16 a step
     assert!(most.x > 0.1 && most.y < 1e-11, "{most}");
 }
@@ -402,13 +403,9 @@ fn the_step_limit_of_uneven_mass_and_damping_parts_rest_from_blow_up() {
             let mut stepper = scheme
                 .start(&mut snake, &state, dt, Start::SecondOrder)
                 .unwrap();
-            run(
-                &mut snake,
-                &mut *stepper,
-                &mut state,
-                &Until::steps(3000),
-                &mut |_, _| ControlFlow::Continue(()),
-            );
+            let _ = common::run(&mut snake, &mut *stepper, &mut state, 3000, &mut |_, _| {
+                ControlFlow::Continue(())
+            });
             state.v.iter().map(|v| v.length()).fold(0.0, f64::max)
         };
         assert!(size(0.999) < 1e-2, "{}: {}", scheme.name(), size(0.999));
@@ -424,8 +421,11 @@ fn a_schedule_changes_the_body_and_its_operator() {
     body.material = Material::uniform(1.0, 2.0, 3.0);
     body.schedules.tension = Some(Schedule::new(vec![(0.0, 1.0), (1.0, 3.0)]).unwrap());
     let mut snake = Snake::new(body.clone(), World::default()).unwrap();
-    assert!(!snake.advance(0.0, &nodes));
-    assert!(snake.advance(1.0, &nodes));
+    let before = snake.revision();
+    snake.advance(0.0, &nodes);
+    assert_eq!(snake.revision(), before);
+    snake.advance(1.0, &nodes);
+    assert_ne!(snake.revision(), before);
     body.schedules.tension = None;
     body.material = Material::uniform(1.0, 6.0, 3.0);
     let constant = Snake::new(body, World::default()).unwrap();
@@ -437,20 +437,15 @@ fn a_run_that_blows_up_says_when_and_where() {
     let nodes = elastic::circle(DVec2::ZERO, 5.0, 12);
     let mut body = Body::of(&nodes, Topology::Closed, 1.0).unwrap();
     body.material = Material::uniform(1.0, 2.0, 3.0);
-    let mut snake = Snake::new(body, World::default()).unwrap();
+    let snake = Snake::new(body, World::default()).unwrap();
     let mut state = State::at_rest(nodes);
     state.x[3].x += 0.1;
     let dt = 1.5 * Scheme::Leapfrog.step_limit(&snake).unwrap();
-    let mut stepper = Scheme::Leapfrog
-        .start(&mut snake, &state, dt, Start::SecondOrder)
-        .unwrap();
-    let outcome = run(
-        &mut snake,
-        &mut *stepper,
-        &mut state,
-        &Until::steps(9999),
-        &mut |_, _| ControlFlow::Continue(()),
-    );
+    let stepping = Stepping {
+        force: true,
+        ..Stepping::of(Scheme::Leapfrog, dt)
+    };
+    let (outcome, _) = common::end(&snake, &state, stepping, &Until::steps(9999));
     assert!(
         matches!(outcome, Outcome::Diverged { step: 5..=200, .. }),
         "{outcome}"

@@ -6,6 +6,8 @@
 
 mod strays;
 
+mod common;
+
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -15,8 +17,8 @@ use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use proptest as _;
 use snake::{
-    Body, Contact, Crowd, Damping, Energies, Frame, Ledger, Maps, Pace, Sampling, Schedule, Snake,
-    Timing, Until, Upkeep, Wall, WallLaw, World, run,
+    Body, Contact, Damping, Energies, Frame, Ledger, Maps, Pace, Sampling, Schedule, Simulation,
+    Snake, Stepping, Upkeep, Wall, WallLaw, World,
 };
 use {banded as _, lanes as _, outline as _, thiserror as _};
 
@@ -190,18 +192,18 @@ fn chosen_steps_agree_with_short_ones_and_their_account_closes() {
         .unwrap();
     let first = ledger.energies(&mut snake, &state).total();
     let mut worst = 0.0_f64;
-    let outcome = run(
+    let outcome = common::run(
         &mut snake,
         pace.stepper(),
         &mut state,
-        &Until::steps(16),
+        16,
         &mut |snake, state| {
             ledger.book(snake, state).unwrap();
             worst = worst.max((ledger.energies(snake, state).total() - first).abs());
             ControlFlow::Continue(())
         },
     );
-    assert!(outcome.is_good() && pace.summary().unwrap().made > 100);
+    assert!(outcome.is_ok() && pace.summary().unwrap().made > 100);
     assert!(worst < 1e-11 * first, "{worst} of {first}");
     let mut twin = Snake::new(body, World::default()).unwrap();
     let mut fine = start;
@@ -233,18 +235,19 @@ fn a_ledger_and_a_second_run_change_no_byte() {
                 .start(&mut snake, &state, 0.02, Start::SecondOrder)
                 .unwrap();
             let mut ledger = Ledger::begin(&mut snake, &state).unwrap();
-            run(
+            common::run(
                 &mut snake,
                 &mut *stepper,
                 &mut state,
-                &Until::steps(100),
+                100,
                 &mut |snake, state| {
                     if booked {
                         ledger.book(snake, state).unwrap();
                     }
                     ControlFlow::Continue(())
                 },
-            );
+            )
+            .unwrap();
             state
         };
         assert_eq!(last(true), last(false), "{scheme}");
@@ -294,11 +297,11 @@ fn a_hand_may_change_maps_in_a_run_and_the_account_closes() {
             .unwrap();
         let first = ledger.energies(&mut snake, &state).total();
         let mut worst = 0.0_f64;
-        run(
+        common::run(
             &mut snake,
             &mut *stepper,
             &mut state,
-            &Until::steps(200),
+            200,
             &mut |snake, state| {
                 if state.step == 100 {
                     let mut body = snake.body().clone();
@@ -310,7 +313,8 @@ fn a_hand_may_change_maps_in_a_run_and_the_account_closes() {
                 worst = worst.max((ledger.energies(snake, state).total() - first).abs());
                 ControlFlow::Continue(())
             },
-        );
+        )
+        .unwrap();
         let energies = ledger.energies(&mut snake, &state);
         assert!(
             energies.hand.abs() > 0.1 && worst < open * first,
@@ -332,10 +336,11 @@ fn a_crowd_on_a_map_closes_its_account_and_keeps_its_momentum() {
         state.v.fill(DVec2::new(speed, 0.0));
         (Snake::new(body, World::default()).unwrap(), state)
     };
-    let timing = Timing {
+    let timing = Stepping {
         scheme: Scheme::Leapfrog,
         dt: 0.01,
         tolerance: None,
+        each: false,
         start: Start::SecondOrder,
         force: false,
     };
@@ -352,17 +357,18 @@ fn a_crowd_on_a_map_closes_its_account_and_keeps_its_momentum() {
         own: false,
     };
     let two = vec![ball(16.0, 2.0), ball(32.0, -1.0)];
-    let mut crowd = Crowd::new(two, timing, Some(contact), Upkeep::default()).unwrap();
-    let momentum = |crowd: &Crowd| -> DVec2 {
+    let mut crowd =
+        common::simulation(two, timing, (Some(contact), Upkeep::default()), true).unwrap();
+    let momentum = |crowd: &Simulation| -> DVec2 {
         let members = crowd.members().iter();
-        members.flat_map(|member| member.state.v.iter()).sum()
+        members.flat_map(|member| member.state().v.iter()).sum()
     };
     let (before, first) = (momentum(&crowd), crowd.energies().total());
     for _ in 0..1000 {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
     }
     // they have bounced
-    assert!(crowd.members()[0].state.v.iter().sum::<DVec2>().x < 0.0);
+    assert!(crowd.members()[0].state().v.iter().sum::<DVec2>().x < 0.0);
     assert!(momentum(&crowd).distance(before) < 1e-10);
     // kicks around steps are a scheme of their own, whose account is open by order two
     let open = (crowd.energies().total() - first).abs() / first;

@@ -7,6 +7,8 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
+mod common;
+
 use std::ops::ControlFlow::Continue;
 use std::sync::Arc;
 
@@ -15,39 +17,35 @@ use field::{ForceField, Grid};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use snake::{
-    Body, Contact, Crowd, Damping, Force, Outcome, Pressure, Rest, Sampling, Schedule, Snake,
-    Timing, Until, Upkeep, Wall, WallLaw, World, run,
+    Body, Contact, Damping, Force, Outcome, Pressure, Rest, Sampling, Schedule, Snake, Stepping,
+    Until, Upkeep, Wall, WallLaw, World,
 };
 use {banded as _, outline as _, proptest as _, thiserror as _};
 
 const MIDDLE: DVec2 = DVec2::new(60.0, 60.0);
 
-fn timing(scheme: Scheme, dt: f64) -> Timing {
-    Timing {
+fn timing(scheme: Scheme, dt: f64) -> Stepping {
+    Stepping {
         scheme,
         dt,
         tolerance: None,
+        each: false,
         start: Start::SecondOrder,
         force: false,
     }
 }
 
-/// The end of a lone snake, and of a crowd of the same one: outcome and state.
+/// The end of a lone snake, without an account of energies and with one: outcome and state.
 fn both(snake: &Snake, start: &State, dt: f64, steps: u64) -> [(Outcome, State); 2] {
     let until = Until::at_rest(Rest::default(), steps);
-    let (mut lone, mut state) = (snake.clone(), start.clone());
-    let scheme = Scheme::Leapfrog;
-    let mut stepper = scheme
-        .start(&mut lone, &state, dt, Start::SecondOrder)
-        .unwrap();
-    let outcome = run(&mut lone, &mut *stepper, &mut state, &until, &mut |_, _| {
-        Continue(())
-    });
+    let stepping = Stepping::of(Scheme::Leapfrog, dt);
     let snakes = vec![(snake.clone(), start.clone())];
-    let mut crowd = Crowd::unbooked(snakes, timing(scheme, dt), None, Upkeep::default()).unwrap();
-    let of_crowd = crowd.run(&until, &mut |_| Continue(())).unwrap();
-    let member = crowd.members().first().unwrap();
-    [(outcome, state), (of_crowd, member.state.clone())]
+    let rules = (None, Upkeep::default());
+    let mut booked = common::simulation(snakes, stepping, rules, true).unwrap();
+    let outcome = booked.run(&until, &mut |_| Continue(())).unwrap();
+    let member = booked.members().first().unwrap();
+    let with = (outcome, member.state().clone());
+    [common::end(snake, start, stepping, &until), with]
 }
 
 fn flat(push: f64) -> Arc<ForceField> {
@@ -62,7 +60,7 @@ fn ring(material: Material, damping: f64) -> (Body, Vec<DVec2>) {
 }
 
 #[test]
-fn a_crowd_of_one_ends_as_a_lone_snake() {
+fn an_account_changes_neither_the_end_nor_the_way_there() {
     let soft = Material::uniform(1.0, 5.0, 0.0);
     let mut cases = Vec::new();
     // comes to rest
@@ -120,7 +118,7 @@ fn a_crowd_is_not_at_rest_while_one_of_it_is_lost_or_goes_to_and_fro() {
             .iter()
             .map(|s| ((*s).clone(), State::at_rest(x.clone())));
         let timing = timing(Scheme::Leapfrog, 0.1);
-        let crowd = Crowd::new(snakes.collect(), timing, None, Upkeep::default());
+        let crowd = common::simulation(snakes.collect(), timing, (None, Upkeep::default()), true);
         let until = Until::at_rest(Rest::default(), 200_000);
         crowd.unwrap().run(&until, &mut |_| Continue(())).unwrap()
     };
@@ -196,11 +194,11 @@ fn fast_balls_do_not_pass_through_each_other_without_a_word() {
             own: false,
         };
         let snakes = vec![ball(DVec2::ZERO, speed), ball(DVec2::new(30.0, 0.0), 0.0)];
-        let mut crowd = Crowd::new(
+        let mut crowd = common::simulation(
             snakes,
             timing(Scheme::Leapfrog, 0.004),
-            Some(contact),
-            Upkeep::default(),
+            (Some(contact), Upkeep::default()),
+            true,
         )
         .unwrap();
         let momentum = crowd.momentum();
@@ -209,7 +207,7 @@ fn fast_balls_do_not_pass_through_each_other_without_a_word() {
             .run(&Until::steps(steps), &mut |_| Continue(()))
             .unwrap();
         assert!(crowd.momentum().distance(momentum) < 1e-9 * momentum.length());
-        let center = |k: usize| elastic::center(&crowd.members()[k].state.x, None).x;
+        let center = |k: usize| elastic::center(&crowd.members()[k].state().x, None).x;
         let passed = center(0) > center(1);
         assert!(!passed || !outcome.is_good(), "{speed}: {outcome}");
         // up to where the balls can stop each other at all they do
@@ -302,18 +300,9 @@ fn another_body_keeps_what_the_snake_was_told() {
     let after = integrator::System::damping(&snake)[0];
     assert!(after > 1.5 * before, "{before} {after}");
     // and it waits for the change that was announced
-    let mut state = state;
-    let mut stepper = Scheme::Imex
-        .start(&mut snake, &state, 0.5, Start::SecondOrder)
-        .unwrap();
     let until = Until::at_rest(Rest::default(), 1000);
-    let outcome = run(
-        &mut snake,
-        &mut *stepper,
-        &mut state,
-        &until,
-        &mut |_, _| Continue(()),
-    );
+    let stepping = Stepping::of(Scheme::Imex, 0.5);
+    let (outcome, state) = common::end(&snake, &state, stepping, &until);
     assert!(
         matches!(outcome, Outcome::Settled { .. }) && state.t >= 50.0,
         "{outcome}"

@@ -5,6 +5,8 @@
     reason = "a test: a snake that cannot be built should stop it, and nothing is nothing"
 )]
 
+mod common;
+
 use elastic::{End, Material, Topology};
 use field::{Grid, LocalRegions, Polarity, Region, SignedEdge, Smoothing, TwoRegions};
 use glam::{DMat2, DVec2};
@@ -12,7 +14,7 @@ use integrator::{Scheme, Start, State};
 use proptest as _;
 use snake::{
     Acting, Body, Curve, Force, ImageForce, RegionForce, Sampling, SignedEdgeForce, Snake,
-    SnakeError, Until, World, run,
+    SnakeError, World,
 };
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -58,13 +60,14 @@ fn fit(force: impl Force + 'static, at: DVec2, radius: f64) -> (f64, f64) {
     let mut stepper = Scheme::Leapfrog
         .start(&mut snake, &state, 0.05, Start::SecondOrder)
         .unwrap();
-    run(
+    common::run(
         &mut snake,
         &mut *stepper,
         &mut state,
-        &Until::steps(10_000),
+        10_000,
         &mut |_, _| ControlFlow::Continue(()),
-    );
+    )
+    .unwrap();
     let radii: Vec<f64> = state.x.iter().map(|p| p.distance(MIDDLE)).collect();
     let mean = radii.iter().sum::<f64>() / 80.0;
     let worst = radii.iter().map(|r| (r - 25.0).abs()).fold(0.0, f64::max);

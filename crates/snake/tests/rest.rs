@@ -4,13 +4,14 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
+mod common;
+
 use elastic::{Material, Topology};
 use field::{EdgeForce, ForceField, Grid, Smoothing, edge_force};
 use glam::DVec2;
-use integrator::{Scheme, Start, State};
+use integrator::{Scheme, State};
 use proptest as _;
-use snake::{Body, Outcome, Rest, Sampling, Snake, Until, World, run};
-use std::ops::ControlFlow;
+use snake::{Body, Outcome, Rest, Sampling, Snake, Stepping, Until, World};
 use std::sync::Arc;
 use {banded as _, thiserror as _};
 
@@ -52,20 +53,11 @@ fn fit(
         ))
         .with_damping(gamma);
     let world = World::default().with_image(field, Sampling::Bilinear);
-    let mut snake = Snake::new(body, world).unwrap();
-    let mut state = State::at_rest(circle);
+    let snake = Snake::new(body, world).unwrap();
     let limit = Scheme::Leapfrog.step_limit(&snake).unwrap().min(0.5);
-    let mut stepper = Scheme::Leapfrog
-        .start(&mut snake, &state, share * limit, Start::SecondOrder)
-        .unwrap();
+    let stepping = Stepping::of(Scheme::Leapfrog, share * limit);
     let until = Until::at_rest(Rest::default(), 400_000);
-    let outcome = run(
-        &mut snake,
-        &mut *stepper,
-        &mut state,
-        &until,
-        &mut |_, _| ControlFlow::Continue(()),
-    );
+    let (outcome, state) = common::end(&snake, &State::at_rest(circle), stepping, &until);
     let radii = state.x.iter().map(|p| p.distance(middle) / zoom);
     (radii.sum::<f64>() / n as f64, outcome)
 }
@@ -118,22 +110,13 @@ fn a_run_that_never_rests_says_why() {
         )
     };
     let end = |body: Body, world: World, x: &[DVec2], v: DVec2, damped: f64| {
-        let mut snake = Snake::new(body.with_damping(damped), world).unwrap();
+        let snake = Snake::new(body.with_damping(damped), world).unwrap();
         let mut state = State::at_rest(x.to_vec());
         state.v.fill(v);
         let limit = Scheme::Leapfrog.step_limit(&snake);
         let dt = 0.3 * limit.unwrap_or(1.0).min(1.0);
-        let mut stepper = Scheme::Leapfrog
-            .start(&mut snake, &state, dt, Start::SecondOrder)
-            .unwrap();
         let until = Until::at_rest(Rest::default(), 200_000);
-        run(
-            &mut snake,
-            &mut *stepper,
-            &mut state,
-            &until,
-            &mut |_, _| ControlFlow::Continue(()),
-        )
+        common::end(&snake, &state, Stepping::of(Scheme::Leapfrog, dt), &until).0
     };
     let circle = elastic::circle(MIDDLE, 40.0, 30);
     let point = elastic::circle(DVec2::ZERO, 1e-6, 30);

@@ -6,6 +6,8 @@
 
 mod spin;
 
+mod common;
+
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -14,7 +16,7 @@ use elastic::{Material, Motion, Topology};
 use field::{EdgeForce, ForceField, Grid, Smoothing, edge_force};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
-use snake::{Body, Frame, Ledger, Sampling, Snake, Term, Turn, Until, World, run};
+use snake::{Body, Frame, Ledger, Sampling, Snake, Term, Turn, World};
 use spin::{N, body, farthest, go, spinning};
 use {banded as _, outline as _, proptest as _, thiserror as _};
 
@@ -201,11 +203,11 @@ fn on_an_image_that_turns_the_turning_frame_stays_undeformed_and_the_other_does_
             .start(&mut snake, &state, dt, Start::SecondOrder)
             .unwrap();
         // a quarter of a turn in 90 pictures, twenty steps each
-        let _ = run(
+        let _ = common::run(
             &mut snake,
             &mut *stepper,
             &mut state,
-            &Until::steps(6000),
+            6000,
             &mut |snake, state| {
                 if state.step % 20 == 0 && state.step <= 1800 {
                     let angle = turn * state.step as f64 / 1800.0;

@@ -4,8 +4,9 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
+mod common;
+
 use std::any::Any;
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use elastic::{End, Material, Topology};
@@ -14,23 +15,24 @@ use glam::DVec2;
 use integrator::{Fault, Scheme, Start, State};
 use proptest::prelude::*;
 use snake::{
-    Body, Crowd, Curve, EventKind, Force, Plastic, Pull, Rest, Sampling, Snake, Timing, Until,
-    Upkeep, World, run,
+    Body, Curve, EventKind, Force, Plastic, Pull, Rest, Sampling, Simulation, Snake, Stepping,
+    Until, Upkeep, World,
 };
 use {banded as _, thiserror as _};
 
-fn timing(scheme: Scheme, dt: f64) -> Timing {
-    Timing {
+fn timing(scheme: Scheme, dt: f64) -> Stepping {
+    Stepping {
         scheme,
         dt,
         tolerance: None,
+        each: false,
         start: Start::SecondOrder,
         force: false,
     }
 }
 
 /// A straight chain of 11 nodes that was 10 long, stretched to `length` and held there.
-fn held_chain(length: f64, plastic: Plastic, dt: f64) -> Crowd {
+fn held_chain(length: f64, plastic: Plastic, dt: f64) -> Simulation {
     let rest: Vec<DVec2> = (0..11).map(|i| DVec2::new(f64::from(i), 0.0)).collect();
     let body = Body::of(&rest, Topology::open(End::Free), 1.0)
         .unwrap()
@@ -44,11 +46,11 @@ fn held_chain(length: f64, plastic: Plastic, dt: f64) -> Crowd {
         ..Upkeep::default()
     };
     let snakes = vec![(snake, State::at_rest(nodes))];
-    Crowd::new(snakes, timing(Scheme::Leapfrog, dt), None, upkeep).unwrap()
+    common::simulation(snakes, timing(Scheme::Leapfrog, dt), (None, upkeep), true).unwrap()
 }
 
-fn length_at_rest(crowd: &Crowd) -> f64 {
-    let rest = &crowd.members()[0].snake.body().rest;
+fn length_at_rest(crowd: &Simulation) -> f64 {
+    let rest = &crowd.members()[0].snake().body().rest;
     rest[0].distance(rest[rest.len() - 1])
 }
 
@@ -63,7 +65,7 @@ fn below_the_yield_strain_nothing_is_forgotten_and_above_it_all_that_is_beyond()
         let mut crowd = held_chain(length, law, 1e-3);
         let whole = crowd.energies().total();
         for k in 1..=3000_u32 {
-            crowd.step().unwrap();
+            assert!(crowd.step().unwrap().is_continue());
             // ṙ = rate (u − (1 + y) r), and none below the yield strain
             let end = if yields { length / 1.2 } else { 10.0 };
             let exact = end + (10.0 - end) * (-1.5 * 1.2 * 1e-3 * f64::from(k)).exp();
@@ -87,7 +89,7 @@ fn what_creeps_relaxes_by_an_exponential() {
     let mut crowd = held_chain(14.0, law, 0.01);
     let first = crowd.energies().tension;
     while crowd.t() < 2.0 - 1e-9 {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
     }
     // the stretch falls by exp(−rate t), its energy by the square of that; no error but rounding
     let exact = first * (-2.0 * 0.7 * crowd.t()).exp();
@@ -147,14 +149,15 @@ fn under_a_steady_load_it_creeps_at_a_steady_rate() {
         }),
         ..Upkeep::default()
     };
-    let mut crowd = Crowd::new(snakes, timing(Scheme::Leapfrog, 0.05), None, upkeep).unwrap();
-    let tail = |crowd: &Crowd| crowd.members()[0].state.x[10].x;
+    let mut crowd =
+        common::simulation(snakes, timing(Scheme::Leapfrog, 0.05), (None, upkeep), true).unwrap();
+    let tail = |crowd: &Simulation| crowd.members()[0].state().x[10].x;
     while crowd.t() < 600.0 {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
     }
     let (t, x) = (crowd.t(), tail(&crowd));
     while crowd.t() < 700.0 {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
     }
     let found = (tail(&crowd) - x) / (crowd.t() - t);
     // ten edges, each strained by F/ω₁ of its length of 1; what moves is braked, by Σ γ h v of 0.7 % of F
@@ -177,11 +180,12 @@ fn a_ring_grows_by_an_exponential() {
         Snake::new(body, World::default()).unwrap(),
         State::at_rest(nodes),
     )];
-    let mut crowd = Crowd::new(snakes, timing(Scheme::Leapfrog, 0.01), None, upkeep).unwrap();
+    let mut crowd =
+        common::simulation(snakes, timing(Scheme::Leapfrog, 0.01), (None, upkeep), true).unwrap();
     for _ in 0..500 {
-        crowd.step().unwrap();
+        assert!(crowd.step().unwrap().is_continue());
     }
-    let rest = &crowd.members()[0].snake.body().rest;
+    let rest = &crowd.members()[0].snake().body().rest;
     let radius = rest.iter().map(|r| r.length()).sum::<f64>() / rest.len() as f64;
     assert!(
         (radius / (3.0 * 0.5_f64.exp()) - 1.0).abs() < 1e-12,
@@ -250,14 +254,14 @@ proptest! {
             ..Upkeep::default()
         };
         let snakes = vec![(Snake::new(body, world).unwrap(), State::at_rest(nodes))];
-        let mut crowd = Crowd::new(snakes, timing(Scheme::Leapfrog, 0.004), None, upkeep).unwrap();
+        let mut crowd = common::simulation(snakes, timing(Scheme::Leapfrog, 0.004), (None, upkeep), true).unwrap();
         for _ in 0..1000 {
             // pieces get finer nodes than the step was chosen for; then it is over
             if crowd.step().is_err() {
                 break;
             }
             for member in crowd.members() {
-                let x = &member.state.x;
+                let x = &member.state().x;
                 prop_assert!(elastic::signed_area(x) > 0.0, "it flipped");
                 prop_assert!(outline::crossings(x, true).unwrap().is_empty(), "it crosses itself");
             }
@@ -291,20 +295,12 @@ fn settled(field: &Arc<ForceField>, nodes: Vec<DVec2>, topology: Topology) -> Ve
         .with_material(Material::uniform(0.0, 4.0, 4.0))
         .with_damping(1.0);
     let world = World::default().with_image(Arc::clone(field), Sampling::Bilinear);
-    let mut snake = Snake::new(body, world).unwrap();
-    let mut state = State::at_rest(nodes);
-    let mut stepper = Scheme::Imex
-        .start(&mut snake, &state, 0.2, Start::SecondOrder)
-        .unwrap();
+    let snake = Snake::new(body, world).unwrap();
     let until = Until::at_rest(Rest::default(), 20_000);
-    run(
-        &mut snake,
-        &mut *stepper,
-        &mut state,
-        &until,
-        &mut |_, _| ControlFlow::Continue(()),
-    );
-    state.x
+    let stepping = Stepping::of(Scheme::Imex, 0.2);
+    common::end(&snake, &State::at_rest(nodes), stepping, &until)
+        .1
+        .x
 }
 
 /// The farthest that a node of `a` is from the polygon `b`.

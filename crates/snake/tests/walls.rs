@@ -4,13 +4,15 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
+mod common;
+
 use std::ops::ControlFlow;
 
 use elastic::{Material, Topology};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use proptest as _;
-use snake::{Body, Ledger, Snake, Until, Wall, WallLaw, World, run};
+use snake::{Body, Ledger, Snake, Wall, WallLaw, World};
 use {banded as _, field as _, outline as _, thiserror as _};
 
 /// A wall's law, in words, and the share of the normal speed it should return.
@@ -76,18 +78,19 @@ fn after(scheme: Scheme, snake: &mut Snake, start: &State, dt: f64, time: f64) -
         reason = "some thousand"
     )]
     let steps = (time / dt).round() as u64;
-    run(
+    common::run(
         snake,
         &mut *stepper,
         &mut state,
-        &Until::steps(steps),
+        steps,
         &mut |snake, state| {
             ledger.book(snake, state).unwrap();
             let energies = ledger.energies(snake, state);
             most = most.max((energies.mechanical() + energies.scheme) / first);
             ControlFlow::Continue(())
         },
-    );
+    )
+    .unwrap();
     assert_eq!(state.step, steps, "{scheme} arrives");
     (state, most)
 }

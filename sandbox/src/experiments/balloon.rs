@@ -7,9 +7,10 @@ use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, T
 use elastic::{Material, Topology};
 use field::{EdgeForce, Grid, Smoothing, TwoRegions, edge_force};
 use glam::DVec2;
-use integrator::{Scheme, Start, State};
+use integrator::{Scheme, State};
 use snake::{
-    Acting, Body, ImageForce, Pressure, RegionForce, Rest, Sampling, Schedule, Snake, Until, World,
+    Acting, Body, ImageForce, Pressure, RegionForce, Rest, Sampling, Schedule, Simulation, Snake,
+    Stepping, Until, World,
 };
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -223,12 +224,9 @@ fn run() -> Result<Record, SandboxError> {
             .with_damping(3.0);
         // a membrane, which pulls together whatever its size
         body.rest = elastic::circle(DVec2::ZERO, 1e-6, 120);
-        let mut snake = Snake::new(body, world).map_err(SandboxError::refused(ID))?;
-        let mut state = State::at_rest(x);
+        let snake = Snake::new(body, world).map_err(SandboxError::refused(ID))?;
+        let state = State::at_rest(x);
         let dt = 0.05;
-        let mut stepper = Scheme::Leapfrog
-            .start(&mut snake, &state, dt, Start::SecondOrder)
-            .map_err(SandboxError::refused(ID))?;
         let (mut curves, mut course) = (
             vec![state.x.clone()],
             vec![(0.0, elastic::signed_area(&state.x))],
@@ -238,25 +236,24 @@ fn run() -> Result<Record, SandboxError> {
         } else {
             Until::at_rest(Rest::default(), 4000)
         };
-        let _ = snake::run(
-            &mut snake,
-            &mut *stepper,
-            &mut state,
-            &until,
-            &mut |_, state| {
-                if state.step.is_multiple_of(20) {
-                    course.push((state.t, elastic::signed_area(&state.x)));
-                }
-                if state.step.is_multiple_of(100) && curves.len() < 9 {
-                    curves.push(state.x.clone());
-                }
-                // a leak ends at the border of the picture
-                if state.x.iter().any(|p| p.distance(MIDDLE) > 58.0) {
-                    return ControlFlow::Break(());
-                }
-                ControlFlow::Continue(())
-            },
-        );
+        let begun = Simulation::of(snake, state, Stepping::of(Scheme::Leapfrog, dt));
+        let mut simulation = begun.map_err(SandboxError::refused(ID))?;
+        let outcome = simulation.run(&until, &mut |simulation| {
+            let state = simulation.members()[0].state();
+            if state.step.is_multiple_of(20) {
+                course.push((state.t, elastic::signed_area(&state.x)));
+            }
+            if state.step.is_multiple_of(100) && curves.len() < 9 {
+                curves.push(state.x.clone());
+            }
+            // a leak ends at the border of the picture
+            if state.x.iter().any(|p| p.distance(MIDDLE) > 58.0) {
+                return ControlFlow::Break(());
+            }
+            ControlFlow::Continue(())
+        });
+        outcome.map_err(SandboxError::refused(ID))?;
+        let state = simulation.members()[0].state().clone();
         curves.push(state.x.clone());
         course.push((state.t, elastic::signed_area(&state.x)));
         let radii: Vec<f64> = state.x.iter().map(|p| p.distance(MIDDLE)).collect();

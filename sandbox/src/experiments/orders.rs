@@ -1,5 +1,6 @@
 //! Report Eq. 2.6 to 2.9: what the order p of the elastic energy does to a noisy outline.
 
+use super::soft::ended;
 use crate::demand::{below, judged};
 use crate::draw::{Axis, Color, Corner, Figure, Layer, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
@@ -8,7 +9,6 @@ use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use snake::{Body, Freeze, Snake, Until, World};
 use std::f64::consts::{PI, TAU};
-use std::ops::ControlFlow;
 
 const ID: &str = "sec-2-4-orders";
 const NODES: usize = 120;
@@ -188,7 +188,7 @@ fn run() -> Result<Record, SandboxError> {
                 body.with_material(Material::uniform(0.0, 0.0, 0.0).with_higher(weights))
             }
         };
-        let mut snake = Snake::new(body, world).map_err(SandboxError::refused(ID))?;
+        let snake = Snake::new(body, world).map_err(SandboxError::refused(ID))?;
         let limit = Scheme::Leapfrog.step_limit(&snake).unwrap_or(1.0);
         record.note(
             format!("p = {p}: largest step"),
@@ -196,25 +196,15 @@ fn run() -> Result<Record, SandboxError> {
             "s",
             Tolerance::Relative(1e-6),
         );
-        let mut state = State::at_rest(noisy.clone());
         // springs of stiffness 1 are not in that limit
         let dt = (0.5 * limit).min(0.05);
-        let mut stepper = Scheme::Leapfrog
-            .start(&mut snake, &state, dt, Start::SecondOrder)
-            .map_err(SandboxError::refused(ID))?;
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "some thousand"
         )]
         let until = Until::steps((30.0 / dt) as u64);
-        let _ = snake::run(
-            &mut snake,
-            &mut *stepper,
-            &mut state,
-            &until,
-            &mut |_, _| ControlFlow::Continue(()),
-        );
+        let state = ended(ID, snake, State::at_rest(noisy.clone()), dt, &until)?;
         let lines = |x: &[DVec2]| {
             x.iter()
                 .zip(&ring)

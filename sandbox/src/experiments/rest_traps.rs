@@ -6,8 +6,8 @@ use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, T
 use elastic::{Material, Topology};
 use field::{EdgeForce, ForceField, Grid, Smoothing};
 use glam::DVec2;
-use integrator::{Scheme, Start, State};
-use snake::{Body, Outcome, Rest, Sampling, Snake, Until, World};
+use integrator::{Scheme, State};
+use snake::{Body, Outcome, Rest, Sampling, Simulation, Snake, Stepping, Until, World};
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -122,42 +122,38 @@ fn way(
         body.rest = elastic::circle(DVec2::ZERO, 1e-6, n);
     }
     let world = World::default().with_image(field, Sampling::Bilinear);
-    let mut snake = Snake::new(body, world).map_err(SandboxError::refused(ID))?;
-    let mut state = State::at_rest(circle);
+    let snake = Snake::new(body, world).map_err(SandboxError::refused(ID))?;
     let limit = Scheme::Leapfrog.step_limit(&snake).unwrap_or(0.5).min(0.5);
-    let mut stepper = Scheme::Leapfrog
-        .start(&mut snake, &state, share * limit, Start::SecondOrder)
-        .map_err(SandboxError::refused(ID))?;
     let mut points = vec![(0.0, 75.0)];
     let mut last: VecDeque<Vec<DVec2>> = VecDeque::new();
     let mut pixels = None;
     let until = Until::at_rest(Rest::default(), 200_000);
-    let outcome = snake::run(
-        &mut snake,
-        &mut *stepper,
-        &mut state,
-        &until,
-        &mut |_, state| {
-            if pixels.is_none() {
-                let away = |then: &Vec<DVec2>| {
-                    let ways = then.iter().zip(&state.x).map(|(a, b)| a.distance(*b));
-                    ways.fold(0.0, f64::max)
-                };
-                // as the test is: after ten steps, and against any of them
-                if last.len() == 10 && away(&last[0]) < PIXELS {
-                    pixels = Some((state.t, radius(&state.x)));
-                }
-                last.push_back(state.x.clone());
-                if last.len() > 10 {
-                    last.pop_front();
-                }
+    let stepping = Stepping::of(Scheme::Leapfrog, share * limit);
+    let begun = Simulation::of(snake, State::at_rest(circle), stepping);
+    let mut simulation = begun.map_err(SandboxError::refused(ID))?;
+    let outcome = simulation.run(&until, &mut |simulation| {
+        let state = simulation.members()[0].state();
+        if pixels.is_none() {
+            let away = |then: &Vec<DVec2>| {
+                let ways = then.iter().zip(&state.x).map(|(a, b)| a.distance(*b));
+                ways.fold(0.0, f64::max)
+            };
+            // as the test is: after ten steps, and against any of them
+            if last.len() == 10 && away(&last[0]) < PIXELS {
+                pixels = Some((state.t, radius(&state.x)));
             }
-            if state.step.is_multiple_of(20) {
-                points.push((state.t, radius(&state.x)));
+            last.push_back(state.x.clone());
+            if last.len() > 10 {
+                last.pop_front();
             }
-            ControlFlow::Continue(())
-        },
-    );
+        }
+        if state.step.is_multiple_of(20) {
+            points.push((state.t, radius(&state.x)));
+        }
+        ControlFlow::Continue(())
+    });
+    let outcome = outcome.map_err(SandboxError::refused(ID))?;
+    let state = simulation.members()[0].state();
     points.push((state.t, radius(&state.x)));
     Ok(Way {
         points,

@@ -1,13 +1,13 @@
 //! Report §5.2: a free spinning body, in a frame that turns with it and in one that does not.
 
-use super::soft::{keep_shots, picture, shots, times};
+use super::soft::{advance, group, keep_shots, picture, shots, times};
 use crate::demand::{above, below, judged};
 use crate::draw::{Axis, Color, Corner, Figure, Layer, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Record, SandboxError, Table, Tolerance};
 use elastic::{Material, Topology};
 use glam::DVec2;
-use integrator::{Scheme, Start, State};
-use snake::{Body, Crowd, Frame, Snake, Timing, Upkeep, World};
+use integrator::State;
+use snake::{Body, Frame, Snake, Upkeep, World};
 
 const ID: &str = "sec-5-2-turning";
 /// Angular velocity at the start.
@@ -71,15 +71,7 @@ fn run() -> Result<Record, SandboxError> {
             *v = OMEGA * x.perp();
         }
         let snake = Snake::new(body, World::default()).map_err(SandboxError::refused(ID))?;
-        let timing = Timing {
-            scheme: Scheme::Leapfrog,
-            dt,
-            tolerance: None,
-            start: Start::SecondOrder,
-            force: false,
-        };
-        let mut crowd = Crowd::new(vec![(snake, state)], timing, None, Upkeep::default())
-            .map_err(SandboxError::refused(ID))?;
+        let mut crowd = group(ID, vec![(snake, state)], dt, Upkeep::default())?;
         let (spin, energy) = (crowd.angular_momentum(), crowd.energies().total());
         let mut rows = vec![(0.0, 1.0, 0.0)];
         let mut kept = Vec::new();
@@ -88,10 +80,10 @@ fn run() -> Result<Record, SandboxError> {
         while crowd.t() < 2.0 * whole {
             if crowd.t() >= next {
                 let member = &crowd.members()[0];
-                kept.push((crowd.t(), 0, true, member.state.x.clone()));
+                kept.push((crowd.t(), 0, true, member.state().x.clone()));
                 next += whole / 4.0;
             }
-            crowd.step().map_err(SandboxError::refused(ID))?;
+            advance(ID, &mut crowd)?;
             if crowd.steps().is_multiple_of(10) {
                 let share = crowd.angular_momentum() / spin;
                 let elastic = crowd.energies().elastic() / energy;

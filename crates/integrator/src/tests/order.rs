@@ -191,10 +191,12 @@ impl crate::Wrapped for Fading {
         &mut self.springs
     }
 
-    fn advance(&mut self, t: f64, _: &[glam::DVec2]) -> bool {
-        let changed = t.to_bits() != self.at.to_bits();
+    fn advance(&mut self, t: f64, _: &[glam::DVec2]) {
         self.turn(t);
-        changed
+    }
+
+    fn revision(&self) -> u64 {
+        self.at.to_bits()
     }
 
     fn external_is_constant(&self) -> bool {

@@ -241,11 +241,6 @@ pub(super) fn terms(text: &SceneText) -> Result<Option<Vec<Term>>, SceneError> {
     let Some(FrameText::Terms(kept)) = &text.snake.frame else {
         return Ok(None);
     };
-    if !text.also.is_empty() || text.contact.is_some() || text.upkeep.is_some() {
-        let message =
-            "its own equations are for one snake that nothing looks after; \"turning\" would do";
-        return Err(SceneError::key("snake.frame", message));
-    }
     let term = |text: &TermText| match text {
         TermText::Centrifugal => Term::Centrifugal,
         TermText::Coriolis => Term::Coriolis,

@@ -105,12 +105,6 @@ pub(super) fn tips(
             &"there is no picture to grow along; one with a line would do",
         ));
     };
-    if !text.also.is_empty() || text.contact.is_some() || text.upkeep.is_some() {
-        return Err(refuse(
-            "",
-            &"ends grow of one snake that nothing else looks after; without [[also]], [contact] and [upkeep] it would do",
-        ));
-    }
     if text
         .force
         .iter()

@@ -7,7 +7,7 @@ use snake::{Acting, Body, World};
 
 use super::force;
 use crate::SceneError;
-use crate::file::{DirectionText, ForceText, HandText, KindText, SceneText};
+use crate::file::{DirectionText, ForceText, HandText, KindText, SceneText, UpkeepText};
 use crate::hand::{Grip, Hand, Held};
 
 /// The hands of a scene, and the world with their forces in it, which do nothing yet.
@@ -20,7 +20,7 @@ pub(super) fn hand(
     let closed = body.topology.is_closed();
     let mut grips = Vec::new();
     if !text.hand.is_empty() {
-        alone(text)?;
+        possible(text)?;
     }
     for (i, hand) in text.hand.iter().enumerate() {
         let key = format!("hand {i}");
@@ -54,26 +54,28 @@ pub(super) fn hand(
     Ok((Hand::of(grips, closed), world))
 }
 
-/// Refuse company that knows nothing of hands.
-fn alone(text: &SceneText) -> Result<(), SceneError> {
-    let others = [
-        (!text.also.is_empty(), "[[also]]"),
-        (text.contact.is_some(), "[contact]"),
-        (text.upkeep.is_some(), "[upkeep]"),
-        (text.tips.is_some(), "[tips]"),
-    ];
-    for (given, what) in others {
-        if given {
-            let message = format!(
-                "is of one snake that nothing else looks after; without {what} it would do"
-            );
-            return Err(SceneError::key("hand", message));
-        }
+/// Refuse hands on nodes that are numbered anew during the run, and on nodes that must be free.
+fn possible(text: &SceneText) -> Result<(), SceneError> {
+    if text.tips.is_some() {
+        let message = "acts on nodes by their numbers, and ends that grow number them anew; \
+                       leave out [[hand]] or [tips]";
+        return Err(SceneError::key("hand", message));
+    }
+    let holds = text.hand.iter().position(|hand| hand.hold.is_some());
+    let Some(i) = holds else { return Ok(()) };
+    let key = format!("hand {i}: hold");
+    let renumbers = |upkeep: &UpkeepText| {
+        upkeep.stretch.is_some() || upkeep.least_area.is_some() || upkeep.merge.is_some()
+    };
+    if text.upkeep.as_ref().is_some_and(renumbers) {
+        let message = "names nodes by their numbers, and [upkeep] numbers them anew; a force of kind freeze \
+                       follows them";
+        return Err(SceneError::key(&key, message));
     }
     if let Some(crate::file::FrameText::Terms(_)) = &text.snake.frame {
-        let message =
-            "is not for a frame that turns by its own equation; frame = \"turning\" would do";
-        return Err(SceneError::key("hand", message));
+        let message = "must not be given with a frame that turns by its own equation, which needs every node \
+                       free to move; use frame = \"turning\"";
+        return Err(SceneError::key(&key, message));
     }
     Ok(())
 }

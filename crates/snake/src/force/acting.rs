@@ -181,6 +181,12 @@ impl Acting {
         self.schedule.is_none() && self.force.is_constant()
     }
 
+    /// Whether it depends on the velocities of the nodes.
+    #[must_use]
+    pub fn depends_on_velocity(&self) -> bool {
+        self.force.depends_on_velocity()
+    }
+
     /// Whether the force on a node depends on where others are.
     #[must_use]
     pub fn couples(&self) -> bool {

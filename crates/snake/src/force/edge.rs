@@ -93,6 +93,10 @@ impl Force for SignedEdgeForce {
         }
     }
 
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
     fn boxed(&self) -> Box<dyn Force> {
         Box::new(self.clone())
     }

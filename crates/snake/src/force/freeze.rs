@@ -132,6 +132,10 @@ impl Force for Freeze {
         }
     }
 
+    fn depends_on_velocity(&self) -> bool {
+        self.damping > 0.0
+    }
+
     fn boxed(&self) -> Box<dyn Force> {
         Box::new(self.clone())
     }

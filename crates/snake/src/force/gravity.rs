@@ -44,6 +44,10 @@ impl Force for Gravity {
         Ok(())
     }
 
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
     fn boxed(&self) -> Box<dyn Force> {
         Box::new(*self)
     }

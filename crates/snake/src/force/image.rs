@@ -149,6 +149,10 @@ impl Force for ImageForce {
         }
     }
 
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
     fn boxed(&self) -> Box<dyn Force> {
         Box::new(self.clone())
     }

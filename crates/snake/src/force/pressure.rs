@@ -266,6 +266,10 @@ impl Force for Pressure {
         }
     }
 
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
     fn boxed(&self) -> Box<dyn Force> {
         Box::new(self.clone())
     }

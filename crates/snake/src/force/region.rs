@@ -134,6 +134,10 @@ impl Force for RegionForce {
         Ok(()) // the picture was checked where it was prepared
     }
 
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
     fn boxed(&self) -> Box<dyn Force> {
         Box::new(self.clone())
     }

@@ -108,6 +108,10 @@ impl Force for Repulsor {
         self.center.validate("a repulsor's center")
     }
 
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
     fn boxed(&self) -> Box<dyn Force> {
         Box::new(self.clone())
     }

@@ -211,6 +211,10 @@ impl Force for Spring {
         (self.node, self.share) = (heir.unwrap_or(0), 0.0);
     }
 
+    fn depends_on_velocity(&self) -> bool {
+        self.damping > 0.0
+    }
+
     fn boxed(&self) -> Box<dyn Force> {
         Box::new(self.clone())
     }

@@ -107,6 +107,10 @@ impl Force for Turned {
         true
     }
 
+    fn depends_on_velocity(&self) -> bool {
+        self.force.depends_on_velocity()
+    }
+
     fn is_constant(&self) -> bool {
         self.rate == 0.0 && self.force.is_constant()
     }

@@ -153,7 +153,7 @@ fn run() -> Result<Record, SandboxError> {
                 closed: Some(true),
             };
             let picture = scene::Picture::from_levels(image.clone());
-            let mut scene = fit
+            let scene = fit
                 .scene(picture, &contour)
                 .map_err(SandboxError::refused(ID))?;
             let found = scene

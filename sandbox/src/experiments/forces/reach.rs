@@ -13,9 +13,8 @@ use field::{
 use glam::DVec2;
 use integrator::{Fault, Scheme, Start, State};
 use outline::Between;
-use snake::{Body, Curve, Force, Sampling, Snake, Until, World, run as run_snake};
+use snake::{Body, Curve, Force, Sampling, Snake, World};
 use std::any::Any;
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// A force this share of the largest is at half its strength.
@@ -247,13 +246,11 @@ pub(super) fn settle(
             .map_err(SandboxError::refused(id))?;
         for _ in 0..rounds {
             let before = state.x.clone();
-            run_snake(
-                &mut snake,
-                &mut *stepper,
-                &mut state,
-                &Until::steps(STEPS),
-                &mut |_, _| ControlFlow::Continue(()),
-            );
+            for _ in 0..STEPS {
+                if stepper.step(&mut snake, &mut state).is_err() {
+                    break;
+                }
+            }
             // nodes that ran apart or together are evened out, as any snake's would be
             let Ok(plan) = outline::slide(&state.x, true, state.len(), Between::Cubic) else {
                 return Ok((state.x, false)); // it has shrunk to a point

@@ -8,8 +8,8 @@ use field::{
     EdgeForce, ForceField, Grid, REPORT_GAIN, REPORT_PASSES, REPORT_SCALE, edge_force, report_force,
 };
 use glam::DVec2;
-use integrator::{Scheme, Start, State};
-use snake::{Body, Sampling, Snake, Until, World, run as run_snake};
+use integrator::{Scheme, State};
+use snake::{Body, Sampling, Simulation, Snake, Stepping, Until, World};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -172,19 +172,13 @@ fn settle(field: ForceField) -> Result<Vec<DVec2>, SandboxError> {
         .with_damping(1.0)
         .with_material(elastic::Material::uniform(0.0, 10.0, 0.0));
     let world = World::default().with_image(Arc::new(field), Sampling::Bilinear);
-    let mut snake = Snake::new(body, world).map_err(SandboxError::refused(ID))?;
-    let mut state = State::at_rest(start);
-    let mut stepper = Scheme::GradientFlow
-        .start(&mut snake, &state, 0.04, Start::SecondOrder)
-        .map_err(SandboxError::refused(ID))?;
-    run_snake(
-        &mut snake,
-        &mut *stepper,
-        &mut state,
-        &Until::steps(4000),
-        &mut |_, _| ControlFlow::Continue(()),
-    );
-    Ok(state.x)
+    let snake = Snake::new(body, world).map_err(SandboxError::refused(ID))?;
+    let stepping = Stepping::of(Scheme::GradientFlow, 0.04);
+    let begun = Simulation::of(snake, State::at_rest(start), stepping);
+    let mut simulation = begun.map_err(SandboxError::refused(ID))?;
+    let end = simulation.run(&Until::steps(4000), &mut |_| ControlFlow::Continue(()));
+    end.map_err(SandboxError::refused(ID))?;
+    Ok(simulation.members()[0].state().x.clone())
 }
 
 fn run() -> Result<Record, SandboxError> {

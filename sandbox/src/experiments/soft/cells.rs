@@ -1,12 +1,12 @@
 //! Two cells that share a border, against Young's equation.
 
-use super::course::{crowd_of, keep_shots, picture, shots, times};
+use super::course::{advance, crowd_of, keep_shots, picture, shots, times};
 use crate::demand::{above, judged};
 use crate::draw::{Axis, Color, Figure, Layer, Line, Panel};
 use crate::experiments::motion::changed_scene;
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
 use glam::DVec2;
-use snake::Crowd;
+use snake::Simulation;
 
 const ID: &str = "soft-cells";
 const ADHESION: [f64; 6] = [0.0, 0.4, 0.8, 1.2, 1.6, 2.0];
@@ -95,10 +95,10 @@ fn circle_through(points: &[DVec2]) -> (DVec2, f64) {
 }
 
 /// cos θ as the free arcs say it, and the tension of the skin.
-fn measure(crowd: &Crowd, gap: f64, range: f64) -> (f64, f64, f64) {
+fn measure(crowd: &Simulation, gap: f64, range: f64) -> (f64, f64, f64) {
     let (mut centers, mut radius, mut tension) = (Vec::new(), 0.0, 0.0);
     for member in crowd.members() {
-        let (x, body) = (&member.state.x, member.snake.body());
+        let (x, body) = (&member.state().x, member.snake().body());
         let n = x.len();
         let length: f64 = (0..n).map(|i| x[i].distance(x[(i + 1) % n])).sum();
         tension = body.material.tension.at(0) * length / (body.spacing * real(n));
@@ -112,7 +112,7 @@ fn measure(crowd: &Crowd, gap: f64, range: f64) -> (f64, f64, f64) {
 }
 
 /// The two cells at rest.
-fn adhering(adhesion: f64, rigidity: &str) -> Result<Crowd, SandboxError> {
+fn adhering(adhesion: f64, rigidity: &str) -> Result<Simulation, SandboxError> {
     let adhesion = format!("adhesion = {adhesion:.1}");
     let rigidity = format!("rigidity = {rigidity}");
     let changes = [
@@ -122,7 +122,7 @@ fn adhering(adhesion: f64, rigidity: &str) -> Result<Crowd, SandboxError> {
     let scene = changed_scene(ID, "two-cells", &changes)?;
     let mut crowd = crowd_of(ID, &scene)?;
     while crowd.steps() < scene.plan.until.steps {
-        crowd.step().map_err(SandboxError::refused(ID))?;
+        advance(ID, &mut crowd)?;
     }
     Ok(crowd)
 }
@@ -145,7 +145,7 @@ fn run() -> Result<Record, SandboxError> {
         exact.push(1.0 - 0.5 * adhesion / tension);
         ratios.push(adhesion / tension);
         for member in crowd.members() {
-            kept.push((adhesion, member.id, true, member.state.x.clone()));
+            kept.push((adhesion, member.id(), true, member.state().x.clone()));
         }
         let like = Tolerance::Absolute(1e-3);
         if adhesion <= 0.0 {
@@ -155,7 +155,7 @@ fn run() -> Result<Record, SandboxError> {
             record.note("cosine, less the exact one", off, "", like);
             record.note("deepest overlap", crowd.deepest(), "px", like);
             let inner = |k: usize| {
-                let x = &crowd.members()[k].state.x;
+                let x = &crowd.members()[k].state().x;
                 let side = x.iter().filter(|p| p.y.abs() < 0.5 && p.x.abs() < 1.0);
                 let (sum, count) = side.fold((0.0, 0.0), |(s, n), p| (s + p.x, n + 1.0));
                 sum / count

@@ -4,8 +4,10 @@ use crate::draw::{Axis, Color, Line, Panel};
 use crate::experiments::motion::pair;
 use crate::{Record, SandboxError, Table, Tolerance, real};
 use glam::DVec2;
+use integrator::{Scheme, State};
 use scene::Scene;
-use snake::{Crowd, Energies, Timing, Upkeep};
+use snake::{Energies, Entry, Rules, Simulation, Snake, Stepping, Until, Upkeep};
+use std::ops::ControlFlow;
 
 /// The terms of the account, as columns.
 pub(crate) const TERMS: [&str; 10] = [
@@ -38,22 +40,66 @@ pub(crate) struct Course {
     pub shots: Vec<(f64, usize, bool, Vec<DVec2>)>,
 }
 
-/// A scene as a crowd, also where it is a single snake.
-pub(crate) fn crowd_of(id: &'static str, scene: &Scene) -> Result<Crowd, SandboxError> {
-    let timing = Timing {
-        scheme: scene.plan.scheme,
-        dt: scene.plan.dt,
-        tolerance: None,
+/// A scene as a simulation that keeps an account of energies.
+pub(crate) fn crowd_of(id: &'static str, scene: &Scene) -> Result<Simulation, SandboxError> {
+    let stepping = Stepping {
         start: scene.plan.start_rule,
         force: scene.plan.force,
+        ..Stepping::of(scene.plan.scheme, scene.plan.dt)
     };
     let mut snakes = vec![(scene.snake.clone(), scene.start.clone())];
-    let (mut contact, mut upkeep) = (None, Upkeep::default());
+    let mut rules = Rules {
+        energies: true,
+        ..Rules::default()
+    };
     if let Some(company) = &scene.company {
         snakes.extend(company.others.iter().cloned());
-        (contact, upkeep) = (company.contact, company.upkeep);
+        (rules.contact, rules.upkeep) = (company.contact, company.upkeep);
     }
-    Crowd::new(snakes, timing, contact, upkeep).map_err(SandboxError::refused(id))
+    let entries = snakes.into_iter();
+    let entries = entries.map(|(snake, state)| Entry::new(snake, state));
+    Simulation::new(entries.collect(), stepping, &rules).map_err(SandboxError::refused(id))
+}
+
+/// Snakes that pass through each other and are looked after, by leapfrog steps of `dt`.
+pub(crate) fn group(
+    id: &'static str,
+    snakes: Vec<(Snake, State)>,
+    dt: f64,
+    upkeep: Upkeep,
+) -> Result<Simulation, SandboxError> {
+    let rules = Rules {
+        upkeep,
+        energies: true,
+        ..Rules::default()
+    };
+    let entries = snakes.into_iter();
+    let entries = entries.map(|(snake, state)| Entry::new(snake, state));
+    let stepping = Stepping::of(Scheme::Leapfrog, dt);
+    Simulation::new(entries.collect(), stepping, &rules).map_err(SandboxError::refused(id))
+}
+
+/// The end of a lone snake by leapfrog steps of `dt`.
+pub(crate) fn ended(
+    id: &'static str,
+    snake: Snake,
+    start: State,
+    dt: f64,
+    until: &Until,
+) -> Result<State, SandboxError> {
+    let begun = Simulation::of(snake, start, Stepping::of(Scheme::Leapfrog, dt));
+    let mut simulation = begun.map_err(SandboxError::refused(id))?;
+    let end = simulation.run(until, &mut |_| ControlFlow::Continue(()));
+    end.map_err(SandboxError::refused(id))?;
+    Ok(simulation.members()[0].state().clone())
+}
+
+/// One step; a simulation that ends with it is refused.
+pub(crate) fn advance(id: &'static str, simulation: &mut Simulation) -> Result<(), SandboxError> {
+    match simulation.step().map_err(SandboxError::refused(id))? {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(outcome) => Err(SandboxError::refused(id)(outcome)),
+    }
 }
 
 fn terms(energies: &Energies) -> [f64; 10] {
@@ -75,7 +121,7 @@ fn terms(energies: &Energies) -> [f64; 10] {
 /// the steps of `pictures`.
 pub(crate) fn watch(
     id: &'static str,
-    crowd: &mut Crowd,
+    crowd: &mut Simulation,
     steps: u64,
     every: u64,
     pictures: &[u64],
@@ -91,7 +137,7 @@ pub(crate) fn watch(
     };
     for step in 0..=steps {
         if step > 0 {
-            crowd.step().map_err(SandboxError::refused(id))?;
+            advance(id, crowd)?;
             course.deepest = course.deepest.max(crowd.deepest());
         }
         if step.is_multiple_of(every) || step == steps {
@@ -99,13 +145,13 @@ pub(crate) fn watch(
             course.terms.push(terms(&crowd.energies()));
             let off = crowd.momentum().distance(start);
             course.momentum.1 = course.momentum.1.max(off);
-            let speeds = crowd.members().iter().flat_map(|m| &m.state.v);
+            let speeds = crowd.members().iter().flat_map(|m| &m.state().v);
             course.fastest = speeds.fold(course.fastest, |most, v| most.max(v.length()));
         }
         if pictures.contains(&step) {
             for member in crowd.members() {
                 let closed = member.is_closed();
-                let shot = (crowd.t(), member.id, closed, member.state.x.clone());
+                let shot = (crowd.t(), member.id(), closed, member.state().x.clone());
                 course.shots.push(shot);
             }
         }

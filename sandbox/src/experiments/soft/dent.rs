@@ -88,7 +88,7 @@ fn run() -> Result<Record, SandboxError> {
         let every: Vec<u64> = (0..=steps / 50).map(|k| 50 * k).collect();
         let course = watch(ID, &mut crowd, steps, 10, &every)?;
         course.note(&mut record, name, 1e-3);
-        let rest = &crowd.members()[0].snake.body().rest;
+        let rest = &crowd.members()[0].snake().body().rest;
         let wide = |k: usize| {
             let (low, high) = rest
                 .iter()

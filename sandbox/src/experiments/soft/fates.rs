@@ -1,6 +1,6 @@
 //! Two become one, one becomes two, one becomes none.
 
-use super::course::{crowd_of, gap, keep_shots, shots};
+use super::course::{advance, crowd_of, gap, keep_shots, shots};
 use crate::demand::{below, judged};
 use crate::draw::{Axis, Color, Corner, Figure, Line, Panel, Picture};
 use crate::experiments::motion::changed_scene;
@@ -105,11 +105,11 @@ fn run() -> Result<Record, SandboxError> {
         let (mut most, mut least, mut outlines) = (0, f64::INFINITY, 0);
         for step in 0..=scene.plan.until.steps {
             if step > 0 {
-                crowd.step().map_err(SandboxError::refused(ID))?;
+                advance(ID, &mut crowd)?;
             }
             if MOMENTS.contains(&step) {
                 for member in crowd.members() {
-                    kept.push((crowd.t(), member.id, true, member.state.x.clone()));
+                    kept.push((crowd.t(), member.id(), true, member.state().x.clone()));
                 }
             }
             if step.is_multiple_of(EVERY) {
@@ -128,13 +128,13 @@ fn run() -> Result<Record, SandboxError> {
                     named[0], named[1], named[2], named[3], named[4], named[5], named[6], rest,
                 ]);
                 for member in crowd.members() {
-                    let x = &member.state.x;
+                    let x = &member.state().x;
                     let found = outline::crossings(x, true).map_err(SandboxError::refused(ID))?;
                     most = most.max(found.len());
                     let a = signed_area(x);
                     least = least.min(a);
                     outlines += 1;
-                    area.push((crowd.t(), member.id, a));
+                    area.push((crowd.t(), member.id(), a));
                 }
             }
         }
@@ -180,7 +180,7 @@ fn run() -> Result<Record, SandboxError> {
                 "",
                 Tolerance::EXACT,
             );
-            let nodes = crowd.members().iter().flat_map(|m| &m.state.x);
+            let nodes = crowd.members().iter().flat_map(|m| &m.state().x);
             let far = nodes.map(|p| {
                 let each = DISCS.iter().map(|(c, r)| (p.distance(*c) - r).abs());
                 each.fold(f64::INFINITY, f64::min)

@@ -101,7 +101,7 @@ fn run() -> Result<Record, SandboxError> {
         let mut crowd = crowd_of(ID, &scene)?;
         let course: Course = watch(ID, &mut crowd, steps, 20, &chosen)?;
         course.note(&mut record, name, 0.1);
-        let ball = &crowd.members()[0].state.x;
+        let ball = &crowd.members()[0].state().x;
         let center = elastic::center(ball, None);
         let end = Tolerance::Absolute(0.3);
         record.note(format!("{name}: center at the end"), center.y, "px", end);

@@ -80,7 +80,7 @@ fn run() -> Result<Record, SandboxError> {
             .with("share", "", Tolerance::EXACT, areas),
     );
     let member = &crowd.members()[0];
-    let (x, body) = (&member.state.x, member.snake.body());
+    let (x, body) = (&member.state().x, member.snake().body());
     let n = x.len();
     let tension =
         |i: usize| body.material.tension.at(i) * x[i].distance(x[(i + 1) % n]) / body.spacing;
@@ -128,7 +128,7 @@ fn run() -> Result<Record, SandboxError> {
     let mut crowd = crowd_of(ID, &empty)?;
     let pictures: Vec<u64> = [0.0, 2.2, 2.8, 3.6, 40.0].map(at).to_vec();
     let without = watch(ID, &mut crowd, at(40.0), steps, &pictures)?;
-    let left = elastic::signed_area(&crowd.members()[0].state.x).abs() / full;
+    let left = elastic::signed_area(&crowd.members()[0].state().x).abs() / full;
     record.note(
         "area without gas after 40 s",
         left,

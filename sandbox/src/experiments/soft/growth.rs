@@ -1,6 +1,6 @@
 //! A rest shape that grows into its object, and carries its form to where no edge is seen.
 
-use super::course::{crowd_of, gap, keep_shots, picture, shots, times};
+use super::course::{advance, crowd_of, gap, keep_shots, picture, shots, times};
 use crate::demand::{above, below, judged};
 use crate::draw::{Axis, Color, Corner, Figure, Layer, Line, Panel, Picture};
 use crate::experiments::motion::changed_scene;
@@ -107,13 +107,13 @@ fn run() -> Result<Record, SandboxError> {
             record.keep_grid("cell", picture.levels().clone());
         }
         let mut crowd = crowd_of(ID, &scene)?;
-        let size = |crowd: &snake::Crowd| crowd.members()[0].snake.body().rest[0].length();
+        let size = |crowd: &snake::Simulation| crowd.members()[0].snake().body().rest[0].length();
         let first = size(&crowd);
         let (mut kept, mut rows, mut t, mut grown) =
             (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for step in 0..=scene.plan.until.steps {
             if step > 0 {
-                crowd.step().map_err(SandboxError::refused(ID))?;
+                advance(ID, &mut crowd)?;
             }
             if step.is_multiple_of(50) {
                 let e = crowd.energies();
@@ -125,10 +125,10 @@ fn run() -> Result<Record, SandboxError> {
             }
             let early = name == "balloon" && [60, 120, 200, 300].contains(&step);
             if early || step.is_multiple_of(460) || step == scene.plan.until.steps {
-                kept.push((crowd.t(), 0, true, crowd.members()[0].state.x.clone()));
+                kept.push((crowd.t(), 0, true, crowd.members()[0].state().x.clone()));
             }
         }
-        let end = &crowd.members()[0].state.x;
+        let end = &crowd.members()[0].state().x;
         let (mut sum, mut count, mut hidden) = (0.0, 0.0, 0.0_f64);
         for &p in end {
             if p.x < HIDDEN - 4.0 {

@@ -15,7 +15,7 @@ mod rope;
 mod slope;
 
 pub(crate) use cells::CELLS;
-pub(crate) use course::{keep_shots, picture, shots, times};
+pub(crate) use course::{advance, ended, group, keep_shots, picture, shots, times};
 pub(crate) use dent::DENT;
 pub(crate) use fates::FATES;
 pub(crate) use funnel::FUNNEL;

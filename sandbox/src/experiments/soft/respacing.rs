@@ -1,14 +1,14 @@
 //! Nodes spaced anew, outlines that divide, and results that do not hang on the number of nodes.
 
-use super::course::{keep_shots, picture, shots, times, watch};
+use super::course::{advance, group, keep_shots, picture, shots, times, watch};
 use crate::demand::{above, below, judged, near};
 use crate::draw::{Axis, Color, Figure, Layer, Line, Panel};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Tolerance, real};
 use elastic::{Material, Topology};
 use field::{EdgeForce, ForceField, Grid, Smoothing};
 use glam::DVec2;
-use integrator::{Scheme, Start, State, System};
-use snake::{Body, Crowd, EventKind, Rest, Sampling, Snake, Timing, Upkeep, World};
+use integrator::{Scheme, State, System};
+use snake::{Body, EventKind, Rest, Sampling, Simulation, Snake, Upkeep, World};
 use std::sync::Arc;
 
 const ID: &str = "soft-respacing";
@@ -70,16 +70,6 @@ pub(crate) const RESPACING: Experiment = Experiment {
     draw,
 };
 
-const fn timing(dt: f64) -> Timing {
-    Timing {
-        scheme: Scheme::Leapfrog,
-        dt,
-        tolerance: None,
-        start: Start::SecondOrder,
-        force: false,
-    }
-}
-
 /// A bright ellipse of semi-axes 40 and 25.
 fn ellipse() -> Result<Arc<ForceField>, SandboxError> {
     let image = Grid::from_shape_fn((96, 128), |(y, x)| {
@@ -106,18 +96,12 @@ fn settled(field: &Arc<ForceField>, n: usize) -> Result<Vec<DVec2>, SandboxError
     let snake = Snake::new(body, world).map_err(SandboxError::refused(ID))?;
     let limit = Scheme::Leapfrog.step_limit(&snake).unwrap_or(0.2);
     let snakes = vec![(snake, State::at_rest(nodes))];
-    let mut crowd = Crowd::new(
-        snakes,
-        timing((0.7 * limit).min(0.1)),
-        None,
-        Upkeep::default(),
-    )
-    .map_err(SandboxError::refused(ID))?;
+    let mut crowd = group(ID, snakes, (0.7 * limit).min(0.1), Upkeep::default())?;
     crowd.watch(Rest::default());
     while crowd.steps() < 40_000 && !crowd.is_at_rest() {
-        crowd.step().map_err(SandboxError::refused(ID))?;
+        advance(ID, &mut crowd)?;
     }
-    Ok(crowd.members()[0].state.x.clone())
+    Ok(crowd.members()[0].state().x.clone())
 }
 
 /// Distance of a point from a closed polygon.
@@ -156,11 +140,10 @@ fn grow(
         stretch,
         ..Upkeep::default()
     };
-    let mut crowd = Crowd::new(free(body, state)?, timing(1e-3), None, upkeep)
-        .map_err(SandboxError::refused(ID))?;
-    let mass = |crowd: &Crowd| {
+    let mut crowd = group(ID, free(body, state)?, 1e-3, upkeep)?;
+    let mass = |crowd: &Simulation| {
         let member = &crowd.members()[0];
-        member.snake.mass().iter().sum::<f64>() * member.snake.body().spacing
+        member.snake().mass().iter().sum::<f64>() * member.snake().body().spacing
     };
     let (m, p, l) = (mass(&crowd), crowd.momentum(), crowd.angular_momentum());
     let course = watch(ID, &mut crowd, 1200, 100, &[0, 400, 800, 1200])?;
@@ -168,7 +151,7 @@ fn grow(
     if stretch.is_some() {
         record.note(
             "nodes at the end",
-            real(crowd.members()[0].state.len()),
+            real(crowd.members()[0].state().len()),
             "",
             Tolerance::EXACT,
         );
@@ -207,8 +190,7 @@ fn pinch(
         ..Upkeep::default()
     };
     let snakes = free(body, State::at_rest(nodes))?;
-    let mut crowd =
-        Crowd::new(snakes, timing(5e-3), None, upkeep).map_err(SandboxError::refused(ID))?;
+    let mut crowd = group(ID, snakes, 5e-3, upkeep)?;
     let course = watch(ID, &mut crowd, 800, 200, &[0, 40, 80, 800])?;
     keep_shots(record, table, &course.shots);
     let pieces = real(crowd.members().len());
@@ -217,7 +199,7 @@ fn pinch(
         let areas = crowd
             .members()
             .iter()
-            .map(|m| elastic::signed_area(&m.state.x));
+            .map(|m| elastic::signed_area(&m.state().x));
         let least = areas.fold(f64::INFINITY, f64::min);
         record.note(
             "least area of a piece",

@@ -1,6 +1,6 @@
 //! A rubber rope with a pinned end, against the string's own solution.
 
-use super::course::{account, crowd_of, keep_shots, picture, shots, times, watch};
+use super::course::{account, advance, crowd_of, keep_shots, picture, shots, times, watch};
 use crate::demand::{above, at_most, below, judged};
 use crate::draw::{Axis, Color, Figure, Layer, Line, Panel};
 use crate::experiments::motion::changed_scene;
@@ -85,7 +85,7 @@ fn run() -> Result<Record, SandboxError> {
     let pin = scene.start.x[0];
     let course = watch(ID, &mut crowd, steps, 10, &all)?;
     course.note(&mut record, "rope", 1e-6);
-    let end = &crowd.members()[0].state.x;
+    let end = &crowd.members()[0].state().x;
     // node i of n pulls up all below it: n - i pieces of weight h μ g, the last a whole one as every node
     let g = 2.0;
     let weight = |i: usize| real(n - 1 - i) * h * mass * g;
@@ -105,8 +105,8 @@ fn run() -> Result<Record, SandboxError> {
     let mut crowd = crowd_of(ID, &still)?;
     let mut tail = vec![(0.0, still.start.x[n - 1].x)];
     for _ in 0..second(40.0) {
-        crowd.step().map_err(SandboxError::refused(ID))?;
-        tail.push((crowd.t(), crowd.members()[0].state.x[n - 1].x));
+        advance(ID, &mut crowd)?;
+        tail.push((crowd.t(), crowd.members()[0].state().x[n - 1].x));
     }
     let offset = h * real(n - 1);
     let mut crossings = Vec::new();
@@ -150,7 +150,7 @@ fn run() -> Result<Record, SandboxError> {
         .map_err(SandboxError::refused(ID))?;
     let mut crowd = crowd_of(ID, &loose)?;
     let fallen = watch(ID, &mut crowd, second(6.0), steps, &chosen)?;
-    let head = crowd.members()[0].state.x[0];
+    let head = crowd.members()[0].state().x[0];
     record.note("fall without the pin in 6 s", pin.y - head.y, "px", close);
     keep_shots(&mut record, "loose", &fallen.shots);
     Ok(record)

@@ -1,13 +1,13 @@
 //! Twenty balls on a rough slope: friction that sticks, and Coulomb's number where it slips.
 
-use super::course::{crowd_of, picture, shots, times, wall, watch};
+use super::course::{advance, crowd_of, picture, shots, times, wall, watch};
 use crate::demand::{above, below, judged};
 use crate::draw::{Axis, Color, Figure, Layer, Line, Panel};
 use crate::experiments::motion::changed_scene;
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance};
 use glam::DVec2;
 use scene::Scene;
-use snake::{Crowd, World};
+use snake::{Edit, Parameter, Simulation, World};
 
 const ID: &str = "soft-slope";
 const G: f64 = 4.0;
@@ -67,7 +67,7 @@ pub(crate) const SLOPE: Experiment = Experiment {
 };
 
 /// The balls of the scene on a slope of so many degrees.
-fn on(degrees: f64, stick: f64) -> Result<Crowd, SandboxError> {
+fn on(degrees: f64, stick: f64) -> Result<Simulation, SandboxError> {
     let mut scene: Scene = changed_scene(ID, "slope", &[])?;
     let angle = degrees.to_radians();
     let lean = G * DVec2::new(angle.sin(), -angle.cos());
@@ -90,17 +90,16 @@ fn on(degrees: f64, stick: f64) -> Result<Crowd, SandboxError> {
     }
     // what rings inside a ball has nothing to do with the slope
     let mut crowd = crowd_of(ID, &scene)?;
-    for member in crowd.members_mut() {
-        let mut body = member.snake.body().clone();
-        body.internal = 0.001;
-        member.snake.set_body(body).map_err(refused(ID))?;
+    for id in 0..crowd.members().len() {
+        let less = Edit::Set(Parameter::Internal, 0.001);
+        crowd.edit(id, less).map_err(SandboxError::refused(ID))?;
     }
     Ok(crowd)
 }
 
-fn centers(crowd: &Crowd) -> Vec<DVec2> {
+fn centers(crowd: &Simulation) -> Vec<DVec2> {
     let each = crowd.members().iter();
-    each.map(|m| elastic::center(&m.state.x, None)).collect()
+    each.map(|m| elastic::center(&m.state().x, None)).collect()
 }
 
 fn run() -> Result<Record, SandboxError> {
@@ -114,7 +113,7 @@ fn run() -> Result<Record, SandboxError> {
         let (mut t, mut way) = (Vec::new(), Vec::new());
         let mut settled = start.clone();
         for step in 1..=10_000_u32 {
-            crowd.step().map_err(SandboxError::refused(ID))?;
+            advance(ID, &mut crowd)?;
             if step == 4000 {
                 settled = centers(&crowd);
             }
@@ -159,7 +158,7 @@ fn run() -> Result<Record, SandboxError> {
             .members()
             .iter()
             .map(|m| {
-                let body = m.snake.body();
+                let body = m.snake().body();
                 body.mass.to_vec(body.len()).iter().sum::<f64>() * body.spacing
             })
             .sum();

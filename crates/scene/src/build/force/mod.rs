@@ -17,7 +17,8 @@ use elastic::Profile;
 use field::{FieldError, ForceField, Grid, Smoothing};
 use glam::DVec2;
 use snake::{
-    Acting, Crowd, Energies, Gravity, ImageForce, Pressure, RegionForce, Sampling, Turned, World,
+    Acting, Energies, Gravity, ImageForce, Pressure, RegionForce, Sampling, Simulation, Turned,
+    World,
 };
 
 use super::body::{profile, straight};
@@ -384,7 +385,7 @@ pub(crate) fn add(
 /// Columns and keys of a record that no force may be called: what [`Energies`] calls its terms, of a snake or a crowd,
 /// and what else stands in a line.
 fn columns() -> BTreeSet<String> {
-    let terms = Energies::names_with(true, Crowd::FORCES.into_iter());
+    let terms = Energies::names_with(true, Simulation::FORCES.into_iter());
     let rest = crate::record::COLUMNS.into_iter().map(str::to_owned);
     terms.into_iter().chain(rest).collect()
 }

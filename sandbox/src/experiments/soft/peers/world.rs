@@ -3,10 +3,10 @@
 use super::model::Model;
 use super::{mass_spring, touch, xpbd};
 use crate::SandboxError;
-use crate::experiments::soft::course::crowd_of;
+use crate::experiments::soft::course::{advance, crowd_of};
 use glam::DVec2;
 use scene::Scene;
-use snake::Crowd;
+use snake::Simulation;
 
 /// The steps of both ways of positions, in those of the snake: the same number of passes.
 const SMALL: f64 = 0.25;
@@ -48,7 +48,7 @@ pub(super) struct World {
 
 #[derive(Debug)]
 enum How {
-    Snake(Box<Crowd>),
+    Snake(Box<Simulation>),
     Springs(Model),
     Positions(Model, usize),
 }
@@ -96,7 +96,7 @@ impl World {
 
     pub(super) fn step(&mut self, id: &'static str) -> Result<(), SandboxError> {
         match &mut self.how {
-            How::Snake(crowd) => crowd.step().map_err(SandboxError::refused(id))?,
+            How::Snake(crowd) => advance(id, crowd)?,
             How::Springs(model) => mass_spring::step(model, self.dt),
             How::Positions(model, passes) => xpbd::step(model, self.dt, *passes),
         }
@@ -116,7 +116,7 @@ impl World {
     /// Nodes of curve `k`.
     pub(super) fn curve(&self, k: usize) -> &[DVec2] {
         match &self.how {
-            How::Snake(crowd) => &crowd.members()[k].state.x,
+            How::Snake(crowd) => &crowd.members()[k].state().x,
             How::Springs(model) | How::Positions(model, _) => model.nodes(k),
         }
     }

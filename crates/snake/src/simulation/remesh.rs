@@ -4,12 +4,11 @@
 
 use elastic::{Profile, Topology};
 use glam::DVec2;
-use integrator::{Start, State};
+use integrator::State;
 use outline::{Between, Lengths, Plan, Removal, Totals};
 
-use super::course::around;
-use super::{Crowd, CrowdError, Member, lightest};
-use crate::error::finite_at_least;
+use super::run::around;
+use super::{Entry, Member, RuleKey, Simulation, SimulationError, lightest};
 use crate::rest::Verdict;
 use crate::{Body, Snake, SnakeError};
 
@@ -95,6 +94,13 @@ pub enum EventKind {
     },
     /// Nothing of it is left.
     Vanished,
+    /// One of its ends has stopped growing.
+    Grown {
+        /// Whether it is the head, the first node, or else the tail.
+        head: bool,
+        /// How many nodes the curve has.
+        nodes: usize,
+    },
 }
 
 impl Default for Upkeep {
@@ -116,21 +122,22 @@ impl Upkeep {
         self.every > 0 && step.is_multiple_of(self.every)
     }
 
-    pub(super) fn validate(&self) -> Result<(), SnakeError> {
+    pub(super) fn validate(&self) -> Result<(), SimulationError> {
         if let Some(stretch) = self.stretch {
-            finite_at_least("the stretch to re-space at", 1.5, "at least 1.5", stretch)?;
+            RuleKey::Stretch.check(1.5, "at least 1.5", stretch)?;
         }
+        let least = "at least 0";
         if let Some(area) = self.least_area {
-            finite_at_least("the least area", 0.0, "at least 0", area)?;
+            RuleKey::LeastArea.check(0.0, least, area)?;
         }
         if let Some(depth) = self.merge {
-            finite_at_least("the depth to merge at", 0.0, "at least 0", depth)?;
+            RuleKey::Merge.check(0.0, least, depth)?;
         }
         if let Some(plastic) = self.plastic {
-            finite_at_least("the yield strain", 0.0, "at least 0", plastic.yields_at)?;
-            finite_at_least("the rate of flow", 0.0, "at least 0", plastic.rate)?;
+            RuleKey::YieldsAt.check(0.0, least, plastic.yields_at)?;
+            RuleKey::FlowRate.check(0.0, least, plastic.rate)?;
         }
-        finite_at_least("the growth", f64::MIN, "a rate", self.growth).map(|_| ())
+        RuleKey::Growth.check(f64::MIN, "a rate", self.growth)
     }
 }
 
@@ -141,9 +148,9 @@ struct Renewed {
     plan: Plan,
 }
 
-impl Crowd {
+impl Simulation {
     /// Look after every curve once.
-    pub(super) fn keep_up(&mut self) -> Result<(), CrowdError> {
+    pub(super) fn keep_up(&mut self) -> Result<(), SimulationError> {
         let before = if self.books.kept {
             self.energies().total()
         } else {
@@ -151,7 +158,7 @@ impl Crowd {
         };
         let (upkeep, kept) = (self.upkeep, self.books.kept);
         if upkeep.plastic.is_some() || upkeep.growth.abs() > 0.0 {
-            let time = self.timing.dt * upkeep.every as f64;
+            let time = self.stepping.dt * upkeep.every as f64;
             for member in &mut self.members {
                 member.flow(&upkeep, time)?;
                 member.resume()?;
@@ -193,7 +200,7 @@ impl Crowd {
     }
 
     /// Space the nodes of curves anew that have become too long or too short for theirs.
-    fn respace(&mut self, stretch: f64) -> Result<bool, CrowdError> {
+    fn respace(&mut self, stretch: f64) -> Result<bool, SimulationError> {
         let mut changed = false;
         for k in 0..self.members.len() {
             let member = &self.members[k];
@@ -201,7 +208,7 @@ impl Crowd {
             let Some(count) = member.wanted(stretch) else {
                 continue;
             };
-            let wrong = |error| CrowdError::Outline { member: id, error };
+            let wrong = |error| SimulationError::Outline { member: id, error };
             let closed = member.is_closed();
             let plan = outline::slide(&member.state.x, closed, count, Between::Cubic);
             let plan = plan.map_err(wrong)?;
@@ -214,13 +221,13 @@ impl Crowd {
     }
 
     /// Cut crossings out of closed curves.
-    fn untangle(&mut self, least_area: f64) -> Result<bool, CrowdError> {
+    fn untangle(&mut self, least_area: f64) -> Result<bool, SimulationError> {
         let mut changed = false;
         let mut k = 0;
         while k < self.members.len() {
             let member = &self.members[k];
             let id = member.id;
-            let wrong = |error| CrowdError::Outline { member: id, error };
+            let wrong = |error| SimulationError::Outline { member: id, error };
             if !member.is_closed() {
                 k += 1;
                 continue;
@@ -274,7 +281,7 @@ impl Crowd {
                 for acting in &mut world.forces {
                     acting.carry(&piece.plan);
                 }
-                self.join(Snake::new(piece.body, world)?, piece.state)?;
+                self.join(Entry::new(Snake::new(piece.body, world)?, piece.state))?;
             }
             k += 1;
         }
@@ -282,7 +289,7 @@ impl Crowd {
     }
 
     /// Make one of closed curves that are deep in each other.
-    fn merge(&mut self, depth: f64) -> Result<bool, CrowdError> {
+    fn merge(&mut self, depth: f64) -> Result<bool, SimulationError> {
         let mut changed = false;
         let mut a = 0;
         let mut boxes: Vec<_> = self.members.iter().map(|m| around(&m.state.x)).collect();
@@ -297,7 +304,7 @@ impl Crowd {
                 }
                 let (one, two) = (&self.members[a], &self.members[b]);
                 let id = one.id;
-                let wrong = |error| CrowdError::Outline { member: id, error };
+                let wrong = |error| SimulationError::Outline { member: id, error };
                 let merged = if one.is_closed() && two.is_closed() {
                     outline::merge(&one.state.x, &two.state.x, depth).map_err(wrong)?
                 } else {
@@ -327,7 +334,7 @@ impl Crowd {
     }
 
     /// Put a renewed curve in the place of member `k`.
-    fn put(&mut self, k: usize, renewed: Renewed) -> Result<(), CrowdError> {
+    fn put(&mut self, k: usize, renewed: Renewed) -> Result<(), SimulationError> {
         self.remember(k);
         let member = &self.members[k];
         let mut world = member.snake.world().clone();
@@ -340,8 +347,8 @@ impl Crowd {
         let mut snake = Snake::new(body, world)?;
         snake.follow(&member.snake, &renewed.plan)?;
         let id = member.id;
-        let pace = self.pace(&mut snake, &renewed.state, Start::SecondOrder);
-        let (pace, cuts) = pace.map_err(|error| CrowdError::Scheme { member: id, error })?;
+        let pace = self.pace_of(k, &mut snake, &renewed.state);
+        let (pace, cuts) = pace.map_err(|error| error.of(id))?;
         let before = self.members[k].cuts;
         if cuts != before {
             self.log(id, EventKind::Cut { cuts });
@@ -354,13 +361,14 @@ impl Crowd {
         member.resume()
     }
 
-    /// Take member `k` out; what its ledger has booked stays in the crowd's.
-    fn retire(&mut self, k: usize) {
+    /// Take member `k` out; what its ledger has booked stays in the simulation's.
+    pub(super) fn retire(&mut self, k: usize) -> Member {
         self.remember(k);
         let member = self.members.remove(k);
         if let Some(ledger) = &member.ledger {
             self.books.retire(&ledger.booked());
         }
+        member
     }
 }
 
@@ -495,7 +503,7 @@ impl Member {
     }
 
     /// Let the rest shape give way and grow, for that long.
-    fn flow(&mut self, upkeep: &Upkeep, time: f64) -> Result<(), CrowdError> {
+    fn flow(&mut self, upkeep: &Upkeep, time: f64) -> Result<(), SimulationError> {
         let body = self.snake.body();
         let closed = self.is_closed();
         let n = body.len();

@@ -3,9 +3,9 @@
 use glam::DVec2;
 use integrator::{Limit, SchemeError, Start, State, Summary};
 
-use super::course::around;
-use super::{Contact, Crowd, CrowdError, Timing, longest};
-use crate::{Pace, Snake};
+use super::run::around;
+use super::{Contact, Simulation, SimulationError, Stepping, longest};
+use crate::{Pace, Snake, SnakeError, Term, Turning, TurningStepper};
 
 /// Share of the contacts' limit that chosen steps have: they err by the square of it.
 const RESOLVED: f64 = 0.25;
@@ -19,17 +19,48 @@ const BELOW: f64 = 0.9;
 /// Sub-steps of a step at most: a curve that needs more is taken for a mistake in the scene.
 const MOST: f64 = 1000.0;
 
-impl Crowd {
+/// Why a snake cannot be stepped.
+#[derive(Debug)]
+pub(super) enum Unready {
+    Scheme(SchemeError),
+    Snake(SnakeError),
+    Frame,
+}
+
+impl From<SchemeError> for Unready {
+    fn from(error: SchemeError) -> Self {
+        Self::Scheme(error)
+    }
+}
+
+impl From<SnakeError> for Unready {
+    fn from(error: SnakeError) -> Self {
+        Self::Snake(error)
+    }
+}
+
+impl Unready {
+    /// The error of a simulation that it is, of that snake.
+    pub(super) fn of(self, member: usize) -> SimulationError {
+        match self {
+            Self::Scheme(error) => SimulationError::Scheme { member, error },
+            Self::Snake(error) => error.into(),
+            Self::Frame => SimulationError::Frame { member },
+        }
+    }
+}
+
+impl Simulation {
     /// Let the step have as many parts as the contacts ask for now: masses and lengths change with
     /// upkeep, and nodes that
     /// come fast must be seen on the way.
-    pub(super) fn divide(&mut self) -> Result<(), CrowdError> {
+    pub(super) fn divide(&mut self) -> Result<(), SimulationError> {
         let Some(contact) = self.contact else {
             return Ok(());
         };
-        let dt = self.timing.dt;
+        let dt = self.stepping.dt;
         let mut wanted = self.least_parts as f64;
-        if self.timing.tolerance.is_none() && dt >= self.contact_limit(&contact) {
+        if self.stepping.tolerance.is_none() && dt >= self.contact_limit(&contact) {
             wanted = wanted.max((dt / (BELOW * self.contact_limit(&contact))).ceil());
         }
         let way = SEEN * (contact.gap + contact.stop);
@@ -53,10 +84,9 @@ impl Crowd {
         for k in 0..self.members.len() {
             self.remember(k);
             let mut snake = self.members[k].snake.clone();
-            let pace = self.pace(&mut snake, &self.members[k].state, Start::SecondOrder);
+            let pace = self.pace_of(k, &mut snake, &self.members[k].state);
             let member = &mut self.members[k];
-            let id = member.id;
-            let (pace, cuts) = pace.map_err(|error| CrowdError::Scheme { member: id, error })?;
+            let (pace, cuts) = pace.map_err(|error| error.of(member.id))?;
             (member.pace, member.cuts) = (pace, cuts);
             member.resume()?;
         }
@@ -94,7 +124,7 @@ impl Crowd {
         }
         let all = moving.iter().map(|(_, v)| *v);
         let all = all.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-        let dt = self.timing.dt;
+        let dt = self.stepping.dt;
         // nothing can come that far: mostly so
         let most = all.map_or(0.0, |all| against(all, all));
         if dt * most <= SEEN * reach {
@@ -121,9 +151,9 @@ impl Crowd {
     }
 
     /// Cut the step into parts below the limit of the contacts, or refuse it where it may not be cut.
-    pub(super) fn cut(&mut self, limit: f64) -> Result<(), CrowdError> {
-        let dt = self.timing.dt;
-        let most = match self.timing.tolerance {
+    pub(super) fn cut(&mut self, limit: f64) -> Result<(), SimulationError> {
+        let dt = self.stepping.dt;
+        let most = match self.stepping.tolerance {
             Some(_) => RESOLVED * limit,
             None => limit,
         };
@@ -132,8 +162,8 @@ impl Crowd {
         }
         let parts = (dt / (RESOLVED * limit)).ceil();
         // more would take longer than anybody waits for one step
-        if self.timing.tolerance.is_none() || !(limit > 0.0 && parts < 1e9) {
-            return Err(CrowdError::AboveLimit { dt, limit });
+        if self.stepping.tolerance.is_none() || !(limit > 0.0 && parts < 1e9) {
+            return Err(SimulationError::AboveLimit { dt, limit });
         }
         #[allow(
             clippy::cast_possible_truncation,
@@ -151,40 +181,70 @@ impl Crowd {
 
     /// The length of a part of a step. T.
     pub(super) const fn part(&self) -> f64 {
-        self.timing.dt / self.parts as f64
+        self.stepping.dt / self.parts as f64
     }
 
-    /// What moves a snake of this crowd, and in how many sub-steps it makes each part of a step.
+    /// What moves a snake, and in how many sub-steps it makes each part of a step.
     ///
     /// Nodes that upkeep has put closer together allow shorter steps only: what the scene began with was
     /// checked, what became of it is cut.
     pub(super) fn pace(
         &self,
+        terms: Option<&[Term]>,
         snake: &mut Snake,
         state: &State,
         start: Start,
-    ) -> Result<(Pace, u64), SchemeError> {
-        let Timing {
-            scheme, tolerance, ..
-        } = self.timing;
+    ) -> Result<(Pace, u64), Unready> {
+        let Stepping {
+            scheme,
+            dt,
+            tolerance,
+            each,
+            ..
+        } = self.stepping;
         let Some(tolerance) = tolerance else {
             let cuts = self.cuts(snake)?;
-            let dt = self.timing.dt / cuts as f64;
-            return Ok((Pace::fixed(scheme, snake, state, dt, start)?, cuts));
+            let dt = dt / cuts as f64;
+            let pace = match terms {
+                None => Pace::fixed(scheme, snake, state, dt, start)?,
+                Some(terms) => {
+                    let turning = Turning::new(snake)?;
+                    let missing = Term::ALL.iter().filter(|term| !terms.contains(term));
+                    let turning = missing.fold(turning, |turning, &term| turning.without(term));
+                    let stepper = TurningStepper::new(turning, scheme, state, dt, start)?;
+                    Pace::Fixed(Box::new(stepper))
+                }
+            };
+            return Ok((pace, cuts));
         };
+        if terms.is_some() {
+            return Err(Unready::Frame);
+        }
         let pace = Pace::chosen(scheme, snake, state, self.part(), tolerance)?;
         let pace = match self.cut {
             Some(limit) => pace.cut_by(limit),
+            None if each => pace.each(),
             None => pace,
         };
         Ok((pace, 1))
     }
 
+    /// The same for what has become of member `k`.
+    pub(super) fn pace_of(
+        &self,
+        k: usize,
+        snake: &mut Snake,
+        state: &State,
+    ) -> Result<(Pace, u64), Unready> {
+        let terms = self.members[k].terms.as_deref();
+        self.pace(terms, snake, state, Start::SecondOrder)
+    }
+
     /// How many sub-steps keep a step of this snake below its limit, with a margin where it takes more than one.
     fn cuts(&self, snake: &Snake) -> Result<u64, SchemeError> {
-        let Timing {
+        let Stepping {
             scheme, dt, force, ..
-        } = self.timing;
+        } = self.stepping;
         let hardest = snake.at_its_hardest();
         let all = hardest.iter().chain(hardest.is_empty().then_some(snake));
         let limit = all.filter_map(|snake| scheme.step_limit(snake));

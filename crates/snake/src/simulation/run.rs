@@ -1,46 +1,38 @@
-//! A run of a crowd, and how it ends: by the same words as that of a lone snake.
+//! A run, and how it ends.
 
 use std::ops::ControlFlow;
 
 use glam::DVec2;
 
-use super::{Crowd, CrowdError, Member};
+use super::{Member, Simulation, SimulationError};
 use crate::rest::Verdict;
 use crate::{Outcome, Until};
 
-impl Crowd {
-    /// Move everything until `until`, showing the crowd to `observer` after every step.
+impl Simulation {
+    /// Move everything until `until`, showing the simulation to `observer` after every step.
     ///
-    /// It ends as [`run`](crate::run) does: with the observer's word, with a snake that left its
-    /// picture or blew up, when every
-    /// snake is at rest or never will be, or after the steps. Where not all are at rest, the end is
-    /// that of the first that is
-    /// lost, else of one that has collapsed or turned over, else of one that goes to and fro.
-    /// Whatever else it would have been,
-    /// curves that push each other and lie, or have been, in each other deeper than twice
-    /// [`Contact::stop`](crate::Contact) are no good end.
+    /// It ends where the observer breaks, with a snake that has left its picture or blown up, when every snake is at
+    /// rest or never will be, or after the steps. Where not all are at rest, the end is that of the first that is lost,
+    /// else of one that has collapsed or turned over, else of one that goes to and fro. Curves that push each other and
+    /// lie in each other deeper than twice [`Contact::stop`](crate::Contact), or have done so, are an outcome as well.
+    /// The observer may edit the simulation.
     ///
     /// # Errors
     ///
-    /// A scheme that cannot move what became of a snake, a curve that could not be kept in order. A fault of a
-    /// force or of a number is an outcome.
+    /// As [`Simulation::step`]. A fault of a force or of a number is an outcome.
     pub fn run(
         &mut self,
         until: &Until,
         observer: &mut dyn FnMut(&mut Self) -> ControlFlow<()>,
-    ) -> Result<Outcome, CrowdError> {
+    ) -> Result<Outcome, SimulationError> {
         if let Some(rest) = until.rest {
             self.watch(rest);
         }
         let begin = self.step;
         let over = |t: f64| until.time.is_some_and(|end| t >= end);
         while self.step - begin < until.steps && !over(self.t) {
-            match self.step() {
-                Ok(()) => {}
-                Err(CrowdError::Fault { fault, .. }) => {
-                    return Ok(Outcome::of_fault(fault, self.step));
-                }
-                Err(error) => return Err(error),
+            if let ControlFlow::Break(outcome) = self.step()? {
+                return Ok(outcome);
             }
             let step = self.step;
             let stopped = observer(self).is_break();

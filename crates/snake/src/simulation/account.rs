@@ -5,11 +5,11 @@
 //! for an energy, so the sum is a check of kicks against forces and of forces against energies.
 
 use super::passage::Tally;
-use super::{Crowd, CrowdError, Member};
+use super::{Member, Simulation, SimulationError};
 use crate::Energies;
 
 /// What a crowd itself has booked, above what its members have.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Books {
     /// Whether an account is kept.
     pub kept: bool,
@@ -78,26 +78,15 @@ fn add_up(sum: &mut Energies, energies: &Energies) {
     sum.upkeep += energies.upkeep;
 }
 
-impl Crowd {
-    /// The same without an account of energies from now on ([`Crowd::unbooked`] never begins one).
-    #[must_use]
-    pub fn without_account(mut self) -> Self {
-        self.books.kept = false;
-        self.meetings.count(false);
-        for member in &mut self.members {
-            member.ledger = None;
-            member.snake.account = None;
-        }
-        self
-    }
-
-    /// What the forces of [`Crowd::energies`] are called: those of every member's world together, and what
+impl Simulation {
+    /// What the forces of [`Simulation::energies`] are called: those of every member's world together, and what
     /// the contacts between members hold.
     pub const FORCES: [&str; 2] = ["outside", "between"];
 
     /// All energies, those of the members added up. Losses in contacts between members stand under
     /// `contact`, minus what their kicks have put in beyond the work of their forces under `scheme`, and what
-    /// [`Upkeep`](super::Upkeep) has put in under `upkeep`.
+    /// [`Upkeep`](super::Upkeep) has put in under `upkeep`. Without an account ([`Rules`](super::Rules)) what would be
+    /// booked is 0.
     pub fn energies(&mut self) -> Energies {
         let mut sum = Energies {
             forces: vec![0.0; 2],
@@ -119,9 +108,21 @@ impl Crowd {
     }
 }
 
+impl Simulation {
+    /// The energies of snake number `id` alone, force by force, with what its own account has booked.
+    ///
+    /// # Errors
+    ///
+    /// A number that no snake has.
+    pub fn energies_of(&mut self, id: usize) -> Result<Energies, SimulationError> {
+        let k = self.index(id)?;
+        Ok(self.members[k].energies())
+    }
+}
+
 impl Member {
     /// Its energies, with what its own ledger has booked.
-    pub fn energies(&mut self) -> Energies {
+    fn energies(&mut self) -> Energies {
         match &self.ledger {
             Some(ledger) => ledger.energies(&mut self.snake, &self.state),
             None => self.snake.energies(&self.state),
@@ -129,24 +130,27 @@ impl Member {
     }
 
     /// Tell its scheme, and its ledger if it keeps one, that someone else has moved it.
-    pub(super) fn resume(&mut self) -> Result<(), CrowdError> {
+    pub(super) fn resume(&mut self) -> Result<(), SimulationError> {
         let stepper = self.pace.stepper();
         stepper.resume(&mut self.snake, &self.state);
+        self.told = self.snake.edits;
         let Some(ledger) = &mut self.ledger else {
             return Ok(());
         };
         let member = self.id;
         let resumed = ledger.resume(&mut self.snake, &self.state);
-        resumed.map_err(|fault| CrowdError::Fault { member, fault })
+        resumed.map_err(|fault| SimulationError::Fault { member, fault })
     }
 
-    /// Book what has been changed by hand since the last step.
-    pub(super) fn catch_up(&mut self) -> Result<(), CrowdError> {
+    /// The same where only its velocities have been changed.
+    pub(super) fn kicked(&mut self) -> Result<(), SimulationError> {
+        let stepper = self.pace.stepper();
+        stepper.kicked(&mut self.snake, &self.state);
         let Some(ledger) = &mut self.ledger else {
             return Ok(());
         };
         let member = self.id;
-        let caught_up = ledger.catch_up(&mut self.snake);
-        caught_up.map_err(|fault| CrowdError::Fault { member, fault })
+        let kicked = ledger.kicked(&mut self.snake, &self.state);
+        kicked.map_err(|fault| SimulationError::Fault { member, fault })
     }
 }

@@ -1,12 +1,9 @@
-//! Running a snake until something happens.
-
-use std::ops::ControlFlow;
+//! When a run stops, and how it ended.
 
 use glam::DVec2;
-use integrator::{Fault, FaultKind, State, Stepper};
+use integrator::{Fault, FaultKind};
 
-use crate::Snake;
-use crate::rest::{Rest, Verdict, Watch};
+use crate::Rest;
 
 /// A node farther from the origin is nowhere. L.
 pub(crate) const FAR: f64 = 1e12;
@@ -207,97 +204,4 @@ impl std::fmt::Display for Outcome {
             ),
         }
     }
-}
-
-/// Move `snake` from `state` by `stepper` until `until`, showing every step to `observer`.
-///
-/// The observer sees the state after each step, may change the snake's body or world, and may stop
-/// the run. A snake whose nodes are farther than 1e12 from the origin, or nowhere, has blown up.
-///
-/// The observer is the hand: it watches, pulls, lets go, changes a parameter, pauses and stops.
-///
-/// ```
-/// use std::ops::ControlFlow::{Break, Continue};
-///
-/// use glam::DVec2;
-/// use integrator::{Scheme, Start, State};
-/// use snake::{Acting, Body, Ledger, Outcome, Snake, Spring, Until, World, run};
-///
-/// let circle = elastic::circle(DVec2::ZERO, 10.0, 40);
-/// let body = Body::of(&circle, elastic::Topology::Closed, 1.0)?.with_damping(1.0);
-/// let mut snake = Snake::new(body, World::default())?;
-/// let mut state = State::at_rest(circle);
-/// let mut stepper = Scheme::Leapfrog.start(&mut snake, &state, 0.01, Start::SecondOrder)?;
-/// let mut ledger = Ledger::begin(&mut snake, &state).map_err(|fault| fault.to_string())?;
-///
-/// // pull node 0 from t = 1 to t = 3
-/// let mut hand = |snake: &mut Snake, state: &State| {
-///     let _ = ledger.book(snake, state); // watch
-///     if state.step == 100 {
-///         let pull = Spring::at_node(0, DVec2::new(14.0, 0.0), 5.0);
-///         return snake.add_force(Acting::new(pull)).map_or(Break(()), Continue);
-///     }
-///     if state.step == 300 {
-///         snake.remove_force("spring");
-///     }
-///     Continue(())
-/// };
-/// run(&mut snake, &mut *stepper, &mut state, &Until::steps(400), &mut hand);
-/// assert!(state.x[0].x > 10.0);
-/// // between two calls the run pauses; a parameter may change there as it may in an observer
-/// let thick = snake.body().clone().with_damping(8.0);
-/// snake.set_body(thick)?;
-/// stepper.resume(&mut snake, &state);
-/// // on, until it is calm
-/// let mut calm = |_: &mut Snake, state: &State| {
-///     let fastest = state.v.iter().map(|v| v.length()).fold(0.0, f64::max);
-///     if fastest < 1e-3 { Break(()) } else { Continue(()) }
-/// };
-/// let outcome = run(&mut snake, &mut *stepper, &mut state, &Until::steps(10_000), &mut calm);
-/// assert!(matches!(outcome, Outcome::Stopped { step } if step > 400));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn run(
-    snake: &mut Snake,
-    stepper: &mut dyn Stepper,
-    state: &mut State,
-    until: &Until,
-    observer: &mut dyn FnMut(&mut Snake, &State) -> ControlFlow<()>,
-) -> Outcome {
-    snake.settle(state);
-    let begin = state.step;
-    let mut watch = until.rest.map(|rest| Watch::new(rest, snake, state));
-    let over = |state: &State| until.time.is_some_and(|end| state.t >= end);
-    while state.step - begin < until.steps && !over(state) {
-        if let Err(fault) = stepper.step(snake, state) {
-            return Outcome::of_fault(fault, state.step);
-        }
-        let somewhere = |x: &DVec2| x.is_finite() && x.abs().max_element() < FAR;
-        if let Some(node) = state.x.iter().position(|x| !somewhere(x)) {
-            return Outcome::Diverged {
-                step: state.step,
-                node,
-            };
-        }
-        let changes = snake.changes;
-        if observer(snake, state).is_break() {
-            return Outcome::Stopped { step: state.step };
-        }
-        if snake.changes != changes {
-            // forces kept from the last step are no longer those of this snake
-            stepper.resume(snake, state);
-        }
-        let step = state.step;
-        match watch
-            .as_mut()
-            .and_then(|watch| watch.look(snake, state, &[]))
-        {
-            None | Some(Verdict::Moving) => {}
-            Some(verdict) => return verdict.outcome(step).unwrap_or(Outcome::Settled { step }),
-        }
-    }
-    let step = state.step;
-    let turned = watch.and_then(|watch| watch.turned(snake, state));
-    let turned = turned.and_then(|verdict| verdict.outcome(step));
-    turned.unwrap_or(Outcome::Finished { step })
 }

@@ -21,7 +21,7 @@ struct Footing {
 }
 
 /// All nodes behind walls that push back, in the order of curve, node and wall.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Footings {
     list: Vec<Footing>,
     before: Vec<Footing>,

@@ -6,9 +6,7 @@ use outline::{Near, Neighbours};
 use super::glue::Glue;
 use super::kick::{Half, Turn, brake, push};
 use super::passage::{Passage, Tally};
-use super::{CrowdError, Member};
-use crate::SnakeError;
-use crate::error::finite_at_least;
+use super::{Member, RuleKey, SimulationError};
 
 /// What happens where curves meet.
 ///
@@ -85,7 +83,7 @@ pub(super) struct Meeting {
 }
 
 /// All meetings of a moment.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Meetings {
     neighbours: Neighbours,
     found: Vec<Near>,
@@ -101,31 +99,26 @@ pub(super) struct Meetings {
 
 impl Contact {
     /// Check every number.
-    pub(super) fn validate(&self) -> Result<(), SnakeError> {
-        finite_at_least(
-            "the stiffness of contacts",
-            f64::MIN_POSITIVE,
-            "above 0",
-            self.stiffness,
-        )?;
-        for (name, value) in [
-            ("the damping of contacts", self.damping),
-            ("the friction of contacts", self.friction),
-            ("the friction at walls", self.wall_friction),
-            ("the adhesion of contacts", self.adhesion),
-            ("the range of adhesion", self.range),
-            ("the gap of contacts", self.gap),
+    pub(super) fn validate(&self) -> Result<(), SimulationError> {
+        let least = f64::MIN_POSITIVE;
+        RuleKey::Stiffness.check(least, "above 0", self.stiffness)?;
+        for (key, value) in [
+            (RuleKey::Damping, self.damping),
+            (RuleKey::Friction, self.friction),
+            (RuleKey::WallFriction, self.wall_friction),
+            (RuleKey::Adhesion, self.adhesion),
+            (RuleKey::Range, self.range),
+            (RuleKey::Gap, self.gap),
         ] {
-            finite_at_least(name, 0.0, "at least 0", value)?;
+            key.check(0.0, "at least 0", value)?;
         }
-        let name = "the stick of contacts";
-        finite_at_least(name, 0.0, "from 0 to 1", self.stick)?;
-        if self.stick > 1.0 {
-            let (bound, value) = ("from 0 to 1", self.stick);
-            return Err(SnakeError::BadNumber { name, bound, value });
+        let (bound, stick) = ("from 0 to 1", self.stick);
+        RuleKey::Stick.check(0.0, bound, stick)?;
+        if stick > 1.0 {
+            let (key, value) = (RuleKey::Stick, stick);
+            return Err(SimulationError::Rule { key, bound, value });
         }
-        let name = "the stop of contacts";
-        finite_at_least(name, f64::MIN_POSITIVE, "above 0", self.stop).map(|_| ())
+        RuleKey::Stop.check(least, "above 0", self.stop)
     }
 
     /// Push of a layer that feels this depth, per length of curve.
@@ -167,7 +160,7 @@ impl Meetings {
         contact: &Contact,
         members: &[Member],
         since: Option<f64>,
-    ) -> Result<Tally, CrowdError> {
+    ) -> Result<Tally, SimulationError> {
         std::mem::swap(&mut self.list, &mut self.before);
         self.list.clear();
         self.kicked.clear();
@@ -180,7 +173,7 @@ impl Meetings {
         let curves = members.iter().map(|m| (&m.state.x[..], m.is_closed()));
         self.neighbours
             .rebuild(curves, reach)
-            .map_err(|error| CrowdError::Outline {
+            .map_err(|error| SimulationError::Outline {
                 member: members.first().map_or(0, |member| member.id),
                 error,
             })?;

@@ -21,7 +21,7 @@ pub(super) struct Stuck {
 }
 
 /// All that adheres at a moment: forces on nodes, not per length, and the energy.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Glue {
     /// Of the member looked at last.
     stuck: Vec<Stuck>,

@@ -1,0 +1,589 @@
+//! Snakes in motion: they step side by side, meet, divide, grow and go.
+//!
+//! A lone snake is a simulation of one. Contact joins the steps of the single snakes by splitting, as [verlet67] does
+//! for any force: half a kick by the contact forces, a step of every snake by itself, half a kick again. The kicks come
+//! in pairs, so they keep momentum and angular momentum whatever the scheme, and lose energy only by the contact's own
+//! damping and friction.
+
+mod account;
+mod contact;
+mod edit;
+mod footing;
+mod glue;
+mod grow;
+mod kick;
+mod parts;
+mod passage;
+mod remesh;
+mod rules;
+mod run;
+
+pub use contact::Contact;
+pub use edit::Edit;
+pub use remesh::{Event, EventKind, Plastic, Upkeep};
+pub use rules::{Entry, RuleKey, Rules, SimulationError, Stepping};
+
+use std::ops::ControlFlow;
+
+use elastic::{SpacingRule, Topology};
+use glam::DVec2;
+use integrator::{Fault, FaultKind, Limit, Scheme, State, Summary, System};
+
+use crate::outcome::FAR;
+use crate::rest::{Verdict, Watch};
+use crate::{Ledger, Outcome, Pace, Rest, Snake, Term, Tips};
+use account::Books;
+use contact::Meetings;
+use footing::Footings;
+use kick::Half;
+
+/// One snake of a simulation.
+#[derive(Debug, Clone)]
+pub struct Member {
+    id: usize,
+    snake: Snake,
+    state: State,
+    pace: Pace,
+    /// The inertial forces of a frame that turns by its own equation, where it does.
+    terms: Option<Vec<Term>>,
+    /// Ends that grow, and after how many steps each time.
+    tips: Option<(Tips, u64)>,
+    /// How often the snake had been changed when its scheme was told last.
+    told: u64,
+    /// Sub-steps that each part of a step is made in, where its nodes have come too close for one.
+    cuts: u64,
+    /// None where no account is kept.
+    ledger: Option<Ledger>,
+    /// Mean distance of neighbors when it joined: what upkeep holds to.
+    spacing: f64,
+    /// The least mass density of a node at any time. M.
+    lightest: f64,
+    watch: Option<Watch>,
+    verdict: Verdict,
+}
+
+impl Member {
+    /// Its number: never given again when it is gone.
+    #[must_use]
+    pub const fn id(&self) -> usize {
+        self.id
+    }
+
+    /// The snake.
+    #[must_use]
+    pub const fn snake(&self) -> &Snake {
+        &self.snake
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub const fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Whether its curve is closed.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.snake.body().topology == Topology::Closed
+    }
+
+    /// Mass of the stretch of curve that node `i` stands for. M L.
+    fn mass(&self, i: usize) -> f64 {
+        self.snake.mass()[i] * self.snake.body().spacing
+    }
+
+    /// Whether its ends still grow.
+    fn grows(&self) -> bool {
+        self.tips
+            .as_ref()
+            .is_some_and(|(tips, _)| tips.growing().contains(&true))
+    }
+}
+
+/// The least mass of a node that may move, whatever schedules and maps say.
+fn lightest(snake: &Snake) -> f64 {
+    let hardest = snake.at_its_hardest();
+    let all = hardest.iter().chain([snake]).flat_map(|snake| snake.mass());
+    all.copied().fold(f64::INFINITY, f64::min)
+}
+
+/// The first node that is no longer anywhere.
+fn astray(x: &[DVec2]) -> Option<usize> {
+    let here = |x: &DVec2| (x.x.abs() < FAR) & (x.y.abs() < FAR);
+    // no early way out: one comparison a number
+    let all = x.iter().fold(true, |all, x| all & here(x));
+    if all {
+        None
+    } else {
+        x.iter().position(|x| !here(x))
+    }
+}
+
+/// The longest edge, the closing one counted.
+fn longest(x: &[DVec2], closed: bool) -> f64 {
+    let n = x.len();
+    let edges = if closed { n } else { n - 1 };
+    let lengths = (0..edges).map(|i| x[i].distance(x[(i + 1) % n]));
+    lengths.fold(0.0, f64::max)
+}
+
+/// Snakes in motion, in one world: everything that moves, as one value.
+///
+/// It is made of snakes and their states, stepped, run until something happens, edited between two steps, and copied:
+/// a copy goes on as the original does, to the last bit.
+///
+/// ```
+/// use std::ops::ControlFlow::Continue;
+///
+/// use glam::DVec2;
+/// use integrator::{Scheme, State};
+/// use snake::{Acting, Body, Edit, Outcome, Simulation, Snake, Spring, Stepping, Until, World};
+///
+/// let circle = elastic::circle(DVec2::ZERO, 10.0, 40);
+/// let body = Body::of(&circle, elastic::Topology::Closed, 1.0)?.with_damping(1.0);
+/// let snake = Snake::new(body, World::default())?;
+/// let stepping = Stepping::of(Scheme::Leapfrog, 0.01);
+/// let mut simulation = Simulation::of(snake, State::at_rest(circle), stepping)?;
+/// simulation.run(&Until::steps(100), &mut |_| Continue(()))?;
+///
+/// // pull node 0 for two units of time, from a state that can be returned to
+/// let before = simulation.clone();
+/// let pull = Acting::new(Spring::at_node(0, DVec2::new(14.0, 0.0), 5.0));
+/// simulation.edit(0, Edit::Add(pull))?;
+/// let outcome = simulation.run(&Until::steps(200), &mut |_| Continue(()))?;
+/// assert_eq!(outcome, Outcome::Finished { step: 300 });
+/// assert!(simulation.members()[0].state().x[0].x > 11.0);
+/// simulation = before;
+/// assert!((simulation.members()[0].state().x[0].x - 10.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Simulation {
+    members: Vec<Member>,
+    stepping: Stepping,
+    contact: Option<Contact>,
+    upkeep: Upkeep,
+    rest: Option<Rest>,
+    meetings: Meetings,
+    footings: Footings,
+    events: Vec<Event>,
+    next_id: usize,
+    /// Time and steps at the start.
+    begin: (f64, u64),
+    t: f64,
+    step: u64,
+    /// The deepest that a node has been in another snake so far.
+    deepest: f64,
+    /// Parts of a step at the least, by the scene as it began.
+    least_parts: u64,
+    /// Parts of a step, each begun and ended by the contacts; and what asks for more than one.
+    parts: u64,
+    cut: Option<Limit>,
+    /// Sub-steps of steppers that are gone.
+    made: Option<Summary>,
+    books: Books,
+    /// Whether any member has or had elastic terms above the second order.
+    orders: bool,
+}
+
+impl Simulation {
+    /// A lone snake.
+    ///
+    /// # Errors
+    ///
+    /// As [`Simulation::new`].
+    pub fn of(snake: Snake, state: State, stepping: Stepping) -> Result<Self, SimulationError> {
+        let entries = vec![Entry::new(snake, state)];
+        Self::new(entries, stepping, &Rules::default())
+    }
+
+    /// Several snakes, each where it is, at the time of the first.
+    ///
+    /// # Errors
+    ///
+    /// A scheme that cannot move a snake; rules that cannot be kept, or contacts whose stiffness asks for a
+    /// smaller step; a start at which a force has no value, where an account is kept.
+    pub fn new(
+        entries: Vec<Entry>,
+        stepping: Stepping,
+        rules: &Rules,
+    ) -> Result<Self, SimulationError> {
+        let start = entries
+            .first()
+            .map(|entry| (entry.state.t, entry.state.step));
+        let (t, step) = start.unwrap_or_default();
+        let mut simulation = Self {
+            members: Vec::with_capacity(entries.len()),
+            stepping,
+            contact: rules.contact,
+            upkeep: rules.upkeep,
+            rest: None,
+            meetings: Meetings::default(),
+            footings: Footings::default(),
+            events: Vec::new(),
+            next_id: 0,
+            begin: (t, step),
+            t,
+            step,
+            deepest: 0.0,
+            least_parts: 1,
+            parts: 1,
+            cut: None,
+            made: None,
+            books: Books::new(rules.energies),
+            orders: false,
+        };
+        simulation.meetings.count(rules.energies);
+        rules.upkeep.validate()?;
+        if stepping.each && (entries.len() > 1 || rules.contact.is_some()) {
+            return Err(SimulationError::Unshared);
+        }
+        if let Some(contact) = &rules.contact {
+            contact.validate()?;
+            let each = entries.iter().map(|Entry { snake, state, .. }| {
+                let closed = snake.body().topology.is_closed();
+                (
+                    lightest(snake),
+                    longest(&state.x, closed) / snake.body().spacing,
+                )
+            });
+            let (least, stretch) = each.fold((f64::INFINITY, 0.0_f64), |(m, l), (mass, long)| {
+                (m.min(mass), l.max(long))
+            });
+            simulation.cut(contact.step_limit(least, stretch))?;
+        }
+        for entry in entries {
+            simulation.admit(entry)?;
+        }
+        simulation.meet(None)?;
+        Ok(simulation)
+    }
+
+    /// One more snake that has not been checked yet, from now on.
+    fn admit(&mut self, entry: Entry) -> Result<(), SimulationError> {
+        let member = self.next_id;
+        let Stepping {
+            scheme,
+            dt,
+            tolerance,
+            force,
+            ..
+        } = self.stepping;
+        // sub-steps stay below the limit by themselves
+        let force = force || tolerance.is_some();
+        entry
+            .snake
+            .check_step(scheme, dt, force)
+            .map_err(|error| SimulationError::Scheme { member, error })?;
+        if let Some((tips, every)) = &entry.tips {
+            tips.validate(&entry.snake)?;
+            if *every == 0 || tolerance.is_some() {
+                return Err(SimulationError::Growth { member });
+            }
+        }
+        let t = self.t;
+        self.join(Entry {
+            state: State { t, ..entry.state },
+            ..entry
+        })
+    }
+
+    /// One more snake, from now on.
+    fn join(&mut self, entry: Entry) -> Result<(), SimulationError> {
+        let Entry {
+            mut snake,
+            state,
+            terms,
+            tips,
+        } = entry;
+        let member = self.next_id;
+        snake.settle(&state);
+        let Stepping { scheme, start, .. } = self.stepping;
+        let begun = self.pace(terms.as_deref(), &mut snake, &state, start);
+        let (pace, cuts) = begun.map_err(|error| error.of(member))?;
+        let mut ledger = None;
+        if self.books.kept {
+            let begun = Ledger::begin(&mut snake, &state);
+            // steps in a frame of its own equation are not the scheme's of the nodes
+            let begun = match &terms {
+                Some(_) => begun,
+                None => begun.and_then(|ledger| ledger.under(scheme, start, &mut snake)),
+            };
+            ledger = Some(begun.map_err(|fault| SimulationError::Fault { member, fault })?);
+        } else {
+            snake.inertia = scheme != Scheme::GradientFlow;
+        }
+        let topology = snake.body().topology;
+        self.orders |= snake.body().material.order() > 2;
+        self.members.push(Member {
+            id: member,
+            lightest: lightest(&snake),
+            told: snake.edits,
+            spacing: elastic::spacing(&state.x, topology.is_closed(), SpacingRule::Closed),
+            snake,
+            state,
+            pace,
+            terms,
+            tips,
+            cuts,
+            ledger,
+            watch: None,
+            verdict: Verdict::Moving,
+        });
+        self.next_id += 1;
+        if cuts > 1 {
+            self.log(member, EventKind::Cut { cuts });
+        }
+        Ok(())
+    }
+
+    /// Whether any member has or had elastic terms above the second order, which have a column of their own in
+    /// [`Energies::names_with`](crate::Energies::names_with).
+    #[must_use]
+    pub const fn orders(&self) -> bool {
+        self.orders
+    }
+
+    /// The snakes that are there.
+    #[must_use]
+    pub fn members(&self) -> &[Member] {
+        &self.members
+    }
+
+    /// What has happened to curves so far.
+    #[must_use]
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// The time. T.
+    #[must_use]
+    pub const fn t(&self) -> f64 {
+        self.t
+    }
+
+    /// Steps made, with those that the first snake had made before.
+    #[must_use]
+    pub const fn steps(&self) -> u64 {
+        self.step
+    }
+
+    /// Move everything one step on. It breaks where that cannot be done: a snake has left its picture or is no longer
+    /// anywhere.
+    ///
+    /// # Errors
+    ///
+    /// A snake whose scheme cannot move what an edit has made of it, or whose curve could not be kept in order.
+    pub fn step(&mut self) -> Result<ControlFlow<Outcome>, SimulationError> {
+        match self.advance() {
+            Ok(()) => Ok(ControlFlow::Continue(())),
+            Err(SimulationError::Fault { fault, .. }) => {
+                Ok(ControlFlow::Break(Outcome::of_fault(fault, self.step)))
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    fn advance(&mut self) -> Result<(), SimulationError> {
+        if self.step > self.begin.1 && self.grow()? {
+            self.meet(None)?;
+        }
+        for k in 0..self.members.len() {
+            if self.members[k].told != self.members[k].snake.edits {
+                self.tell(k)?;
+            }
+        }
+        self.divide()?;
+        for part in 1..=self.parts {
+            self.go(part)?;
+        }
+        self.step += 1;
+        if self.upkeep.is_due(self.step) {
+            self.keep_up()?;
+        }
+        self.look();
+        Ok(())
+    }
+
+    /// Tell the scheme and the account of a snake that it has been changed.
+    fn tell(&mut self, k: usize) -> Result<(), SimulationError> {
+        let member = &mut self.members[k];
+        let id = member.id;
+        if let Some(ledger) = &mut member.ledger {
+            let caught_up = ledger.catch_up(&mut member.snake);
+            caught_up.map_err(|fault| SimulationError::Fault { member: id, fault })?;
+        }
+        if member.terms.is_some() {
+            // its frame is made from the snake as it was
+            let (mut snake, state) = (member.snake.clone(), member.state.clone());
+            let begun = self.pace_of(k, &mut snake, &state);
+            let (pace, cuts) = begun.map_err(|error| error.of(id))?;
+            let member = &mut self.members[k];
+            (member.pace, member.cuts) = (pace, cuts);
+        } else {
+            let stepper = member.pace.stepper();
+            stepper.resume(&mut member.snake, &member.state);
+        }
+        let member = &mut self.members[k];
+        member.told = member.snake.edits;
+        Ok(())
+    }
+
+    /// Move everything on by one part of the step.
+    fn go(&mut self, part: u64) -> Result<(), SimulationError> {
+        let half = 0.5 * self.part();
+        self.kick(half, Half::First)?;
+        // counted, not added up, unless the report's clock is asked for (D20)
+        let (begin, first) = self.begin;
+        let share = (self.step - first) as f64 + part as f64 / self.parts as f64;
+        let t = begin + share * self.stepping.dt;
+        let counted = self.stepping.scheme != Scheme::Report && !self.stepping.each;
+        for member in &mut self.members {
+            let id = member.id;
+            let fault = |fault| SimulationError::Fault { member: id, fault };
+            for cut in 1..=member.cuts {
+                let stepper = member.pace.stepper();
+                stepper
+                    .step(&mut member.snake, &mut member.state)
+                    .map_err(fault)?;
+                if counted && cut == member.cuts {
+                    member.state.t = t;
+                }
+                if let Some(node) = astray(&member.state.x) {
+                    // the step is made, and led nowhere
+                    self.step += 1;
+                    return Err(fault(Fault {
+                        node,
+                        at: member.state.x[node],
+                        kind: FaultKind::NotFinite,
+                    }));
+                }
+                if let Some(ledger) = &mut member.ledger {
+                    // a place without force ends the run at the next step, with its own outcome
+                    let _ = ledger.book(&mut member.snake, &member.state);
+                }
+            }
+        }
+        self.t = self.members.first().map_or(self.t, |member| member.state.t);
+        self.meet(Some(self.part()))?;
+        self.deepest = self.deepest.max(self.deepest());
+        self.kick(half, Half::Second)
+    }
+
+    /// Watch for rest from now on. Where curves rub on each other without sticking, what friction holds cannot be
+    /// told from what is out of balance, and rest is a matter of motion alone.
+    pub fn watch(&mut self, rest: Rest) {
+        let rubs = self
+            .contact
+            .is_some_and(|contact| contact.friction > 0.0 && contact.stick <= 0.0);
+        let balance = if rubs { f64::INFINITY } else { rest.balance };
+        self.rest = Some(Rest { balance, ..rest });
+        for member in &mut self.members {
+            let (snake, state) = (&mut member.snake, &member.state);
+            member.watch = self.rest.map(|rest| Watch::new(rest, snake, state));
+            member.verdict = Verdict::Moving;
+        }
+    }
+
+    /// Whether every snake is at rest. One that goes to and fro, is lost, has collapsed or turned over is not.
+    #[must_use]
+    pub fn is_at_rest(&self) -> bool {
+        self.members
+            .iter()
+            .all(|member| member.verdict == Verdict::Rest)
+    }
+
+    /// Look at every snake, if asked to.
+    fn look(&mut self) {
+        let Some(rest) = self.rest else { return };
+        let mut due = false;
+        for member in &mut self.members {
+            if member.grows() {
+                continue;
+            }
+            let (snake, state) = (&mut member.snake, &member.state);
+            let watch = member
+                .watch
+                .get_or_insert_with(|| Watch::new(rest, snake, state));
+            due |= watch.look(snake, state);
+        }
+        if !due {
+            return;
+        }
+        let mut pushes: &mut [Vec<DVec2>] = &mut [];
+        if let Some(contact) = &self.contact {
+            pushes = self.meetings.forces(contact, &self.members);
+            self.footings.add_forces(contact, &self.members, pushes);
+        }
+        for (k, member) in self.members.iter_mut().enumerate() {
+            let (snake, state) = (&mut member.snake, &member.state);
+            let push = pushes.get(k).map_or(&[][..], Vec::as_slice);
+            // what it found holds until another window ends with something else
+            let judged = member.watch.as_mut();
+            if let Some(verdict) = judged.and_then(|watch| watch.judge(snake, state, push)) {
+                member.verdict = verdict;
+            }
+        }
+    }
+
+    /// Find who touches whom, so long after the last time.
+    fn meet(&mut self, since: Option<f64>) -> Result<(), SimulationError> {
+        if let Some(contact) = &self.contact {
+            let mut tally = self.meetings.find(contact, &self.members, since)?;
+            tally += self.footings.find(contact, &self.members, since.is_none());
+            self.books.passed(tally);
+        }
+        Ok(())
+    }
+
+    /// Let the contacts push for that long.
+    fn kick(&mut self, time: f64, half: Half) -> Result<(), SimulationError> {
+        let Some(contact) = &self.contact else {
+            return Ok(());
+        };
+        let mut tally = self.meetings.kick(contact, &mut self.members, time, half);
+        tally += self.footings.kick(contact, &mut self.members, time, half);
+        self.books.kicked(tally);
+        for (k, member) in self.members.iter_mut().enumerate() {
+            if self.meetings.kicked(k) || self.footings.kicked(k) {
+                member.kicked()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Momentum of all members, `Σ h Σ μ v`. M L² T⁻¹.
+    #[must_use]
+    pub fn momentum(&self) -> DVec2 {
+        let each = |member: &Member| -> DVec2 {
+            let nodes = member.state.v.iter().enumerate();
+            nodes.map(|(i, v)| member.mass(i) * *v).sum()
+        };
+        self.members.iter().map(each).sum()
+    }
+
+    /// Angular momentum of all members about the origin, `Σ h Σ μ x × v`. M L³ T⁻¹.
+    #[must_use]
+    pub fn angular_momentum(&self) -> f64 {
+        let each = |member: &Member| -> f64 {
+            let pairs = member.state.x.iter().zip(&member.state.v).enumerate();
+            pairs
+                .map(|(i, (x, v))| member.mass(i) * x.perp_dot(*v))
+                .sum()
+        };
+        self.members.iter().map(each).sum()
+    }
+
+    /// How deep a node has been in another snake at the end of a step, at most so far. L.
+    #[must_use]
+    pub const fn deepest_so_far(&self) -> f64 {
+        self.deepest
+    }
+
+    /// How deep the deepest node is in another snake, and 0 where none is. L.
+    #[must_use]
+    pub fn deepest(&self) -> f64 {
+        let gap = self.contact.as_ref().map_or(0.0, |contact| contact.gap);
+        (self.meetings.deepest() - gap).max(0.0)
+    }
+}

@@ -1,0 +1,118 @@
+//! What a user may change between two steps.
+
+use elastic::Profile;
+use glam::DVec2;
+
+use super::{Entry, Simulation, SimulationError};
+use crate::{Acting, Body, Parameter, SnakeError, World};
+
+/// A change of one snake, made between two steps and felt from the next one on.
+#[derive(Debug, Clone)]
+pub enum Edit {
+    /// Hold these nodes fast: each loses its velocity with the next step.
+    Hold(Vec<usize>),
+    /// Let go of these nodes. Ends that are pinned stay so.
+    Release(Vec<usize>),
+    /// One more force: a spring that pulls, a repulsor that pushes, any other.
+    Add(Acting),
+    /// The first force of that name acts no longer.
+    Remove(String),
+    /// A force in the place of the first one of its name.
+    Replace(Acting),
+    /// A parameter that is the same all along the curve.
+    Set(Parameter, f64),
+    /// Another body of as many nodes.
+    Body(Body),
+    /// Another rest shape of as many nodes.
+    Rest(Vec<DVec2>),
+    /// Another world: other forces and walls, as of the next picture of a sequence.
+    World(World),
+}
+
+impl Simulation {
+    /// Change snake number `id`.
+    ///
+    /// # Errors
+    ///
+    /// A number that no snake has, and whatever the change is refused for; then nothing has changed.
+    pub fn edit(&mut self, id: usize, edit: Edit) -> Result<(), SimulationError> {
+        let k = self.index(id)?;
+        let member = &mut self.members[k];
+        let snake = &mut member.snake;
+        match edit {
+            Edit::Hold(nodes) => snake.hold(nodes)?,
+            Edit::Release(nodes) => snake.release(nodes)?,
+            Edit::Add(acting) => snake.add_force(acting)?,
+            Edit::Remove(name) => {
+                let gone = snake.remove_force(&name);
+                gone.ok_or(SnakeError::NoSuchForce { name })?;
+            }
+            Edit::Replace(acting) => {
+                let name = acting.name().to_owned();
+                snake.replace_force(&name, acting)?;
+            }
+            Edit::Set(parameter, value) => {
+                let mut body = snake.body().clone();
+                body.set(parameter, Profile::Uniform(value))?;
+                snake.set_body(body)?;
+            }
+            Edit::Body(body) => snake.set_body(body)?,
+            Edit::Rest(rest) => snake.set_rest(rest)?,
+            Edit::World(world) => snake.set_world(world)?,
+        }
+        member.lightest = super::lightest(&member.snake);
+        self.orders |= member.snake.body().material.order() > 2;
+        Ok(())
+    }
+
+    /// Expect changes of snake number `id` until the time `t`: before that one that does not move waits, and is not
+    /// called at rest. Minus infinity: no longer.
+    ///
+    /// # Errors
+    ///
+    /// A number that no snake has.
+    pub fn expect_edits_until(&mut self, id: usize, t: f64) -> Result<(), SimulationError> {
+        let k = self.index(id)?;
+        self.members[k].snake.expect_changes_until(t);
+        Ok(())
+    }
+
+    /// One more snake from now on; its number.
+    ///
+    /// # Errors
+    ///
+    /// As [`Simulation::new`]; then nothing has changed.
+    pub fn add(&mut self, entry: Entry) -> Result<usize, SimulationError> {
+        if self.stepping.each && !self.members.is_empty() {
+            return Err(SimulationError::Unshared);
+        }
+        let id = self.next_id;
+        self.admit(entry)?;
+        self.meet(None)?;
+        Ok(id)
+    }
+
+    /// Take snake number `id` out; what it leaves as.
+    ///
+    /// # Errors
+    ///
+    /// A number that no snake has.
+    pub fn remove(&mut self, id: usize) -> Result<Entry, SimulationError> {
+        let k = self.index(id)?;
+        let member = self.retire(k);
+        self.meet(None)?;
+        Ok(Entry {
+            snake: member.snake,
+            state: member.state,
+            terms: member.terms,
+            tips: member.tips,
+        })
+    }
+
+    /// Where in the list snake number `id` is.
+    pub(super) fn index(&self, id: usize) -> Result<usize, SimulationError> {
+        let mut members = self.members.iter();
+        let found = members.position(|member| member.id == id);
+        found.ok_or(SimulationError::NoSuchSnake { id })
+    }
+}
