@@ -5,8 +5,8 @@
 #![allow(clippy::expect_used, reason = "a bench that cannot start may stop")]
 
 use banded::{
-    Band, Banded, BandedFactor, Circulant, Complex, ComplexFactor, ComplexPoint, Factor,
-    LaneFactor, LanePoint, Operator, Pentadiagonal, largest_eigenvalue,
+    Band, Banded, BandedFactor, Circulant, Complex, ComplexFactor, ComplexPoint, Factor, Operator,
+    Pentadiagonal, largest_eigenvalue,
 };
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::DVec2;
@@ -87,33 +87,6 @@ fn solve(c: &mut Criterion) {
             }
         }
     }
-}
-
-/// Small systems side by side; a node of each lane counts.
-fn lanes<const W: usize>(c: &mut Criterion) {
-    for n in [32, 64, 128, 512, 2048] {
-        for (ends, cyclic) in [("open", false), ("cyclic", true)] {
-            let matrices: Vec<_> = (0..W)
-                .map(|lane| matrix(n, cyclic, 0.1 * (lane % 5) as f64))
-                .collect();
-            let mut b = vec![LanePoint::<W>::default(); n];
-            for (i, point) in right_side(n).into_iter().enumerate() {
-                (0..W).for_each(|lane| b[i].set_lane(lane, point));
-            }
-            let own = LaneFactor::<W>::new(&matrices).expect("positive by one");
-            timed(c, &format!("{ends}-{W}-lanes"), n * W, &b, |x| own.solve(x));
-            let shared = Factor::new(&matrices[0]).expect("positive by one");
-            timed(c, &format!("{ends}-{W}-lanes-shared"), n * W, &b, |x| {
-                shared.solve_lanes(x);
-            });
-        }
-    }
-}
-
-fn side_by_side(c: &mut Criterion) {
-    lanes::<2>(c);
-    lanes::<4>(c);
-    lanes::<8>(c);
 }
 
 fn other_ways(c: &mut Criterion) {
@@ -214,13 +187,6 @@ fn eigenvalue(c: &mut Criterion) {
 }
 
 criterion_group!(
-    benches,
-    solve,
-    side_by_side,
-    other_ways,
-    orders,
-    factor,
-    product,
-    eigenvalue
+    benches, solve, other_ways, orders, factor, product, eigenvalue
 );
 criterion_main!(benches);

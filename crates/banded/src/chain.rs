@@ -3,8 +3,8 @@
 //! A chain runs along consecutive rows, in either direction, and knows only the next two nodes and
 //! the two of the border.
 
+use crate::BandedError;
 use crate::scalar::{Entry, Node};
-use crate::{BandedError, Lanes};
 
 /// One chain, in the order of elimination.
 #[derive(Debug, Clone, PartialEq)]
@@ -188,40 +188,6 @@ impl<E: Copy> Heart<E> {
             for i in k + 1..4 {
                 b[k] = b[k] - b[i] * self.lower[i][k];
             }
-        }
-    }
-}
-
-impl<const W: usize> Chain<Lanes<W>> {
-    /// Chains of one length, one a lane; spikes are padded to the longest with zeros.
-    pub(crate) fn side_by_side(chains: [&Chain<f64>; W]) -> Self {
-        let link = |k: usize| Link {
-            next: Lanes(chains.map(|chain| chain.links[k].next)),
-            after: Lanes(chains.map(|chain| chain.links[k].after)),
-            reciprocal: Lanes(chains.map(|chain| chain.links[k].reciprocal)),
-        };
-        let spike = |k: usize| {
-            let of = |chain: &Chain<f64>| chain.spikes.get(k).copied().unwrap_or_default();
-            [0, 1].map(|side| Lanes(chains.map(|chain| of(chain)[side])))
-        };
-        let longest = chains
-            .iter()
-            .map(|chain| chain.spikes.len())
-            .max()
-            .unwrap_or_default();
-        Self {
-            links: (0..chains[0].links.len()).map(link).collect(),
-            spikes: (0..longest).map(spike).collect(),
-        }
-    }
-}
-
-impl<const W: usize> Heart<Lanes<W>> {
-    pub(crate) fn side_by_side(hearts: [&Heart<f64>; W]) -> Self {
-        let entry = |i: usize, j: usize| Lanes(hearts.map(|heart| heart.lower[i][j]));
-        Self {
-            lower: [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| entry(i, j))),
-            reciprocal: [0, 1, 2, 3].map(|k| Lanes(hearts.map(|heart| heart.reciprocal[k]))),
         }
     }
 }

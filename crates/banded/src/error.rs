@@ -57,14 +57,6 @@ pub enum BandedError {
         /// Smallest over largest eigenvalue, estimated.
         reciprocal_condition: f64,
     },
-    /// A problem with one of many matrices side by side.
-    #[error("lane {lane}: {problem}")]
-    Lane {
-        /// The lane, from 0.
-        lane: usize,
-        /// What is wrong there.
-        problem: Box<Self>,
-    },
     /// A complex matrix that cannot be eliminated in order without losing digits.
     #[error(
         "the elimination is unstable: a solution misses its right-hand side by {backward_error:e} \

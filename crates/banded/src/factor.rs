@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::twisted::{Diagonals, Twisted};
 use crate::weakest::{SINGULAR, Weakest, weakest};
-use crate::{BandedError, LanePoint, Pentadiagonal};
+use crate::{BandedError, Pentadiagonal};
 
 /// `A = L D Lᵀ` of a positive definite [`Pentadiagonal`]: factor once, solve many times.
 ///
@@ -52,10 +52,6 @@ impl Factor {
         })
     }
 
-    pub(crate) fn twisted(&self) -> &Twisted<f64> {
-        &self.twisted
-    }
-
     /// The number of rows.
     #[must_use]
     #[allow(clippy::len_without_is_empty, reason = "a matrix has at least 3 rows")]
@@ -80,13 +76,6 @@ impl Factor {
 
     /// Turns the right-hand side `b` into the solution, one number a row.
     pub fn solve_scalars(&self, b: &mut [f64]) {
-        self.twisted.solve(b);
-    }
-
-    /// Turns right-hand sides side by side into the solutions, all of this one matrix.
-    ///
-    /// Each lane gets the bytes that [`solve`](Self::solve) would give it. O(n W), allocates nothing.
-    pub fn solve_lanes<const W: usize>(&self, b: &mut [LanePoint<W>]) {
         self.twisted.solve(b);
     }
 }

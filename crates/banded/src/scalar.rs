@@ -1,8 +1,7 @@
 //! What an entry of a matrix and a node of a right-hand side can be.
 //!
 //! The elimination is written once, for real and for complex entries. A node of a right-hand side is
-//! whatever can be subtracted and multiplied by an entry: a number, a point, a number for each of
-//! several lanes.
+//! whatever can be subtracted and multiplied by an entry: a number or a point.
 
 use std::ops::{Add, Mul, Neg, Sub};
 

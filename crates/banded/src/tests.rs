@@ -3,7 +3,6 @@
 mod circulant;
 mod complex;
 mod eigen;
-mod lanes;
 mod operator;
 mod slice;
 mod wide;

@@ -18,9 +18,9 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::BandedError;
 use crate::chain::{Backward, Chain, Forward, Heart, Rows};
 use crate::scalar::{Entry, Node};
-use crate::{BandedError, Lanes};
 
 /// Couplings below this part of the largest diagonal element are zero: 1e-5 of its last place.
 const FADED: f64 = 1e-21;
@@ -276,18 +276,6 @@ impl<E: Copy, V: Node<E>> WithSimd for Sweep<'_, E, V> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         self.factor.sweep(self.b);
-    }
-}
-
-impl<const W: usize> Twisted<Lanes<W>> {
-    /// Factors of one size and kind, one a lane.
-    pub(crate) fn side_by_side(factors: [&Twisted<f64>; W]) -> Self {
-        Self {
-            cyclic: factors[0].cyclic,
-            left: Chain::side_by_side(factors.map(|factor| &factor.left)),
-            right: Chain::side_by_side(factors.map(|factor| &factor.right)),
-            heart: Heart::side_by_side(factors.map(|factor| &factor.heart)),
-        }
     }
 }
 

@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use integrator::{Scheme, SchemeError, State};
 use snake::{
-    Edit, Energies, Entry, Event, EventKind, Outcome, RuleKey, Rules, Simulation, SimulationError,
-    Snake, Stepping, Until,
+    Edit, Energies, Entry, Event, EventKind, Member, Outcome, RuleKey, Rules, Simulation,
+    SimulationError, Snake, Stepping, Until,
 };
 
 use crate::record::{Curve, Frame, Record};
@@ -20,11 +20,18 @@ impl Scene {
     /// Whatever [`Scene::check`] refuses; a start at which a force has no value, where energies are kept.
     pub fn simulation(&self) -> Result<Simulation, SceneError> {
         self.check()?;
-        self.begin(self.snake.clone())
+        self.begin(self.all().map(|(snake, _)| snake.clone()).collect())
     }
 
-    /// The same with this as the first snake.
-    fn begin(&self, first: Snake) -> Result<Simulation, SceneError> {
+    /// Every snake of it, each where it starts.
+    fn all(&self) -> impl Iterator<Item = (&Snake, &State)> {
+        let others = self.company.iter().flat_map(|company| &company.others);
+        let others = others.map(|(snake, start)| (snake, start));
+        std::iter::once((&self.snake, &self.start)).chain(others)
+    }
+
+    /// The same with these snakes in place of its own.
+    fn begin(&self, snakes: Vec<Snake>) -> Result<Simulation, SceneError> {
         let plan = &self.plan;
         let stepping = Stepping {
             scheme: plan.scheme,
@@ -34,26 +41,21 @@ impl Scene {
             start: plan.start_rule,
             force: plan.force,
         };
-        let entry = |snake: &Snake, state: &State| Entry {
+        let starts = self.all().map(|(_, start)| start);
+        let entry = |(snake, start): (Snake, &State)| Entry {
             terms: self.terms.clone(),
-            ..Entry::new(snake.clone(), state.clone())
+            ..Entry::new(snake, start.clone())
         };
-        let mut entries = vec![Entry {
-            tips: self.tips.clone(),
-            ..entry(&first, &self.start)
-        }];
+        let mut entries: Vec<Entry> = snakes.into_iter().zip(starts).map(entry).collect();
+        if let Some(first) = entries.first_mut() {
+            first.tips.clone_from(&self.tips);
+        }
         let mut rules = Rules {
             energies: plan.recording.energies,
             ..Rules::default()
         };
         if let Some(company) = &self.company {
             (rules.contact, rules.upkeep) = (company.contact, company.upkeep);
-            entries.extend(
-                company
-                    .others
-                    .iter()
-                    .map(|(snake, state)| entry(snake, state)),
-            );
         }
         let (from, to) = self.span();
         for Entry { snake, .. } in &mut entries {
@@ -74,18 +76,20 @@ impl Scene {
         self.check()?;
         let plan = &self.plan;
         let (mut hand, slack) = (self.hand.clone(), 1e-9 * plan.dt);
-        let mut first = self.snake.clone();
+        let mut snakes: Vec<Snake> = self.all().map(|(snake, _)| snake.clone()).collect();
         let mut said = Vec::new();
-        for (edit, what) in hand.act(&self.start, slack)? {
-            let done = edit_snake(&mut first, edit);
+        let t = self.start.t;
+        for (index, edit, what) in hand.act(t, slack, |k| self.all().nth(k).map(|(_, at)| at))? {
+            let done = edit_snake(&mut snakes[index], edit);
             done.map_err(|error| SceneError::key("hand", error))?;
-            said.push((self.start.t, what));
+            said.push((t, what));
         }
-        let mut simulation = self.begin(first)?;
-        if !hand.is_empty() {
-            let expected = simulation.expect_edits_until(0, hand.end());
-            expected.map_err(|error| refused(&error))?;
+        for (index, snake) in snakes.iter_mut().enumerate() {
+            if hand.acts_on(index) {
+                snake.expect_changes_until(hand.end());
+            }
         }
+        let mut simulation = self.begin(snakes)?;
         let keep = &plan.recording.sorted();
         let room = plan.room(self.start.len());
         let until = Until {
@@ -114,8 +118,14 @@ impl Scene {
                 if hand.is_empty() || simulation.steps() - begin >= until.steps {
                     return Ok(shown);
                 }
-                let (id, t) = (first.id(), first.state().t);
-                for (edit, what) in hand.act(first.state(), slack)? {
+                let (t, members) = (simulation.t(), simulation.members());
+                let of = |id| {
+                    members
+                        .iter()
+                        .find(|member| member.id() == id)
+                        .map(Member::state)
+                };
+                for (id, edit, what) in hand.act(t, slack, of)? {
                     let done = simulation.edit(id, edit);
                     done.map_err(|error| SceneError::key("hand", error))?;
                     said.push((t, what));
@@ -162,10 +172,8 @@ impl Scene {
 
     /// What speaks for the curves that have come to rest.
     fn evidence(&self, simulation: &Simulation) -> Vec<Evidence> {
-        let others = self.company.iter().flat_map(|company| &company.others);
-        let mut starts = vec![&self.start.x];
-        starts.extend(others.map(|(_, start)| &start.x));
-        let of = |member: &snake::Member| {
+        let starts: Vec<_> = self.all().map(|(_, start)| &start.x).collect();
+        let of = |member: &Member| {
             let end = member.state();
             // curves that were born on the way began where they are
             let start = starts.get(member.id()).copied().unwrap_or(&end.x);
@@ -180,6 +188,7 @@ fn edit_snake(snake: &mut Snake, edit: Edit) -> Result<(), snake::SnakeError> {
     match edit {
         Edit::Hold(nodes) => snake.hold(nodes),
         Edit::Release(nodes) => snake.release(nodes),
+        Edit::Add(acting) => snake.add_force(acting),
         Edit::Replace(acting) => {
             let name = acting.name().to_owned();
             snake.replace_force(&name, acting).map(|_| ())
@@ -191,7 +200,7 @@ fn edit_snake(snake: &mut Snake, edit: Edit) -> Result<(), snake::SnakeError> {
 
 /// The moment that a simulation is at.
 fn frame(simulation: &mut Simulation, keep: &Recording, alone: bool) -> Result<Frame, SceneError> {
-    let energies = match simulation.members().first().map(snake::Member::id) {
+    let energies = match simulation.members().first().map(Member::id) {
         _ if !keep.energies => None,
         // force by force, by their names
         Some(id) if alone => {

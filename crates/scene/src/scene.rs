@@ -241,7 +241,7 @@ impl Scene {
         let mut snake = self.snake.clone();
         let (from, to) = self.span();
         snake.run_between(from, to);
-        self.hand.take_all(&mut snake);
+        self.hand.take_all(0, &mut snake);
         snake
     }
 
@@ -339,9 +339,20 @@ impl Scene {
         }
         // sub-steps stay below the limit by themselves
         let force = plan.force || plan.tolerance.is_some();
-        self.of_the_run()
-            .check_step(plan.scheme, plan.dt, force)
-            .map_err(|e| refused_step(&e))
+        let check = |snake: &Snake| {
+            let checked = snake.check_step(plan.scheme, plan.dt, force);
+            checked.map_err(|e| refused_step(&e))
+        };
+        check(&self.of_the_run())?;
+        let others = self.company.iter().flat_map(|company| &company.others);
+        for (k, (snake, _)) in others.enumerate() {
+            if self.hand.acts_on(k + 1) {
+                let mut snake = snake.clone();
+                self.hand.take_all(k + 1, &mut snake);
+                check(&snake)?;
+            }
+        }
+        Ok(())
     }
 }
 

@@ -170,11 +170,11 @@ fn hands_that_will_not_do_are_refused_by_their_key() {
     for (hands, says) in [
         (
             "[[hand]]\nfrom = 1.0",
-            "hand 0: one of the keys hold and force",
+            "hand 0: needs one of the keys hold and force",
         ),
         (
             &*format!("[[hand]]\nhold = [0, 1]\n{spring}"),
-            "hand 0: one of the keys hold and force",
+            "hand 0: needs one of the keys hold and force",
         ),
         ("[[hand]]\nhold = [5, 3]", "hand 0: hold"),
         ("[[hand]]\nhold = [0, 21]", "hand 0: hold"),
@@ -200,4 +200,67 @@ fn hands_that_will_not_do_are_refused_by_their_key() {
         let error = refusal(hands);
         assert!(error.contains(says), "{hands}: {error}");
     }
+}
+
+/// Two balls at rest beside each other, the second in front of the first, in a world where they push each other.
+fn balls(hands: &str) -> Result<Scene, scene::SceneError> {
+    let text = format!(
+        r#"
+title = "Two balls"
+{hands}
+[snake]
+nodes = 24
+topology = "closed"
+start = {{ circle = {{ center = [0.0, 0.0], radius = 2.0 }} }}
+[[also]]
+at = [[4.5, 0.0]]
+[material]
+tether = 1.0
+tension = 20.0
+rigidity = 4.0
+[densities]
+mass = 1.0
+damping = 0.5
+[contact]
+stiffness = 200.0
+stop = 0.3
+[run]
+dt = 0.01
+time = 6.0
+[record]
+every = 1
+energies = true
+"#
+    );
+    Scene::parse("balls", &text, Path::new("."))
+}
+
+#[test]
+fn a_hand_drags_one_ball_of_two_against_the_other() {
+    let drag = "[[hand]]\nsnake = 1\nfrom = 1.0\nuntil = 5.0\n\
+                force = { kind = \"spring\", from = [2.5, 0.0], to = [-1.0, 0.0], stiffness = 40.0 }";
+    let record = run(&mut balls(drag).unwrap());
+    let end = record.last().unwrap();
+    let center = |nodes: &[glam::DVec2]| elastic_center(nodes).x;
+    let [first, second] = [&end.nodes, &end.others[0].nodes].map(|nodes| center(nodes));
+    // the first is pushed aside by the second, which is dragged
+    assert!(first < -0.5 && second < 4.0, "{first} {second}");
+    assert_eq!(
+        record.events[0],
+        "t = 1.0000: hand 0 takes hold of the curve of snake 1, spring"
+    );
+    let still = run(&mut balls("").unwrap());
+    assert!(center(&still.last().unwrap().nodes).abs() < 1e-9);
+    // a snake that there is not
+    let error = balls(&drag.replace("snake = 1", "snake = 2")).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("hand 0: snake: must be at most 1"),
+        "{error}"
+    );
+}
+
+fn elastic_center(nodes: &[glam::DVec2]) -> glam::DVec2 {
+    nodes.iter().sum::<glam::DVec2>() / nodes.len() as f64
 }

@@ -4,7 +4,7 @@ use glam::DVec2;
 use integrator::{Meeting, State};
 
 use crate::factors::Factors;
-use crate::{Curve, Energies, Snake};
+use crate::{Curve, Energies, Parameter, Snake};
 
 /// What a ledger needs to know of the moments between two states.
 #[derive(Debug, Clone, Default)]
@@ -111,20 +111,22 @@ impl Snake {
         let rotation = self.rotation_under(factors, x);
         let mut e = std::mem::take(&mut self.deformation);
         self.deformation_from(x, rotation, &mut e);
-        let (body, [tether, tension, rigidity, common, _, higher]) = (&self.body, factors.common);
+        let (body, common) = (&self.body, &factors.common);
         let by_place = factors.by_place();
         let material = by_place.material(&body.material);
         let elastic = elastic::elastic_energy(&e, body.topology, &material, h);
         let mut energies = Energies {
-            tether: tether * elastic.tether,
-            tension: tension * elastic.tension,
-            rigidity: rigidity * elastic.rigidity,
-            higher: (body.material.order() > 2).then_some(higher * elastic.higher),
+            tether: common[Parameter::Tether] * elastic.tether,
+            tension: common[Parameter::Tension] * elastic.tension,
+            rigidity: common[Parameter::Rigidity] * elastic.rigidity,
+            higher: (body.material.order() > 2)
+                .then_some(common[Parameter::Higher] * elastic.higher),
             ..Energies::default()
         };
-        let mass = by_place.times(3, &body.mass);
+        let mass = by_place.times(Parameter::Mass, &body.mass);
         for (i, &v) in v.iter().enumerate().filter(|_| self.inertia) {
-            energies.kinetic += 0.5 * h * (common * mass.at(i)) * v.length_squared();
+            energies.kinetic +=
+                0.5 * h * (common[Parameter::Mass] * mass.at(i)) * v.length_squared();
         }
         self.deformation = e;
         energies
@@ -202,7 +204,7 @@ impl Snake {
     pub(crate) fn loss(&self, state: &State) -> f64 {
         let mut loss = self.inner_loss(state);
         let factors = self.factors_at(state.t, &state.x);
-        let damping = factors.times(4, &self.body.damping);
+        let damping = factors.times(Parameter::Damping, &self.body.damping);
         for (i, (&x, &v)) in state.x.iter().zip(&state.v).enumerate() {
             loss += damping.at(i) * v.length_squared();
             for wall in self.world.walls.iter().filter(|wall| wall.is_spring()) {

@@ -26,7 +26,7 @@ use integrator::{Fault, Scheme, Start, State, System};
 use crate::account::Touched;
 use crate::factors::Factors;
 use crate::ledger::Booking;
-use crate::{Snake, Wall};
+use crate::{Parameter, Snake, Wall};
 
 /// Which formulas.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -365,8 +365,13 @@ impl Snake {
     /// Mass and damping of every node under these factors.
     fn densities_under(&self, factors: &Factors) -> (Vec<f64>, Vec<f64>) {
         let n = self.body.len();
-        let mass = factors.times(3, &self.body.mass).to_vec(n);
-        (mass, factors.times(4, &self.body.damping).to_vec(n))
+        let mass = factors.times(Parameter::Mass, &self.body.mass).to_vec(n);
+        (
+            mass,
+            factors
+                .times(Parameter::Damping, &self.body.damping)
+                .to_vec(n),
+        )
     }
 
     /// −K e of every node under these factors, held or not; and its sum.

@@ -10,7 +10,7 @@ use integrator::{State, System};
 use crate::error::finite_at_least;
 use crate::modes::resisting;
 use crate::renewal::Renewal;
-use crate::{Snake, SnakeError};
+use crate::{Parameter, Snake, SnakeError};
 
 /// A rule that chooses the damping of a snake.
 ///
@@ -159,7 +159,10 @@ impl Snake {
         let due = self.renewal.as_mut().is_some_and(|renewal| renewal.meet(t));
         // what was accepted at the start is accepted again
         if due && let Ok(damping) = self.local_damping(t, x) {
-            self.damping = self.factors.times(4, &damping).to_vec(self.len());
+            self.damping = self
+                .factors
+                .times(Parameter::Damping, &damping)
+                .to_vec(self.len());
             self.body.damping = damping;
         }
         due

@@ -9,15 +9,29 @@ use crate::maps::Places;
 use crate::parameters::{operator, pushes, scaled};
 use crate::schedule;
 use crate::turn::TurningRest;
-use crate::{Certificate, Snake};
+use crate::{Certificate, Parameter, Snake};
 
-/// Factors of ω₀, ω₁, ω₂, μ, γ and all weights above.
-#[derive(Debug, Clone, Default)]
+/// The factor of every parameter, of all nodes and of each.
+#[derive(Debug, Clone)]
 pub(crate) struct Factors {
     /// Of all nodes: the schedules'.
     pub(crate) common: schedule::Factors,
     /// Of each node: the maps'.
     pub(crate) places: Option<Box<Places>>,
+}
+
+/// A factor of 1 for every parameter.
+pub(crate) fn ones() -> schedule::Factors {
+    schedule::Factors::of(|_| 1.0)
+}
+
+impl Default for Factors {
+    fn default() -> Self {
+        Self {
+            common: ones(),
+            places: None,
+        }
+    }
 }
 
 fn equal(a: &[f64], b: &[f64]) -> bool {
@@ -26,8 +40,8 @@ fn equal(a: &[f64], b: &[f64]) -> bool {
 
 impl Factors {
     /// Whether one of the parameters `which` is multiplied by other factors in `other`.
-    fn differ(&self, other: &Self, which: std::ops::Range<usize>) -> bool {
-        which.into_iter().any(|k| {
+    fn differ(&self, other: &Self, which: &[Parameter]) -> bool {
+        which.iter().any(|&k| {
             let (one, two) = (self.place(k), other.place(k));
             let same = match (one, two) {
                 (Some(one), Some(two)) => equal(one, two),
@@ -38,21 +52,20 @@ impl Factors {
         })
     }
 
-    /// Those of the map of parameter `k`.
-    fn place(&self, k: usize) -> Option<&Vec<f64>> {
-        let places = self.places.as_ref()?;
-        places.get(k).and_then(Option::as_ref)
+    /// Those of the map of a parameter.
+    fn place(&self, parameter: Parameter) -> Option<&Vec<f64>> {
+        self.places.as_ref()?[parameter].as_ref()
     }
 
     /// Whether both are the same to the last bit.
     pub(crate) fn same(&self, other: &Self) -> bool {
-        !self.differ(other, 0..6)
+        !self.differ(other, &Parameter::ALL)
     }
 
     /// The same without the schedules.
     pub(crate) fn by_place(&self) -> Self {
         Self {
-            common: [1.0; 6],
+            common: ones(),
             places: self.places.clone(),
         }
     }
@@ -64,24 +77,22 @@ impl Factors {
             places: None,
         };
         if let (Some(one), Some(two)) = (&self.places, &other.places) {
-            let mut places: Places = Default::default();
-            for k in 0..5 {
-                if let (Some(a), Some(b)) = (&one[k], &two[k]) {
-                    let (s, t) = (self.common[k], other.common[k]);
-                    let mean = a.iter().zip(b).map(|(a, b)| 0.5 * (s * a + t * b));
-                    places[k] = Some(mean.collect());
-                    middle.common[k] = 1.0;
-                }
-            }
+            let places = Places::of(|k| {
+                let (a, b) = (one[k].as_ref()?, two[k].as_ref()?);
+                let (s, t) = (self.common[k], other.common[k]);
+                let mean = a.iter().zip(b).map(|(a, b)| 0.5 * (s * a + t * b));
+                middle.common[k] = 1.0;
+                Some(mean.collect())
+            });
             middle.places = Some(Box::new(places));
         }
         middle
     }
 
-    /// A profile times the factors of parameter `k`. What is the same at every node stays one number.
-    pub(crate) fn times(&self, k: usize, profile: &Profile) -> Profile {
-        let scaled = profile.scaled(self.common[k]);
-        let Some(place) = self.place(k) else {
+    /// A profile times the factors of a parameter. What is the same at every node stays one number.
+    pub(crate) fn times(&self, parameter: Parameter, profile: &Profile) -> Profile {
+        let scaled = profile.scaled(self.common[parameter]);
+        let Some(place) = self.place(parameter) else {
             return scaled;
         };
         let one = place.first().filter(|first| {
@@ -101,11 +112,11 @@ impl Factors {
     /// A material times its factors.
     pub(crate) fn material(&self, material: &Material) -> Material {
         Material {
-            tether: self.times(0, &material.tether),
-            tension: self.times(1, &material.tension),
-            rigidity: self.times(2, &material.rigidity),
+            tether: self.times(Parameter::Tether, &material.tether),
+            tension: self.times(Parameter::Tension, &material.tension),
+            rigidity: self.times(Parameter::Rigidity, &material.rigidity),
             higher: (material.higher.iter())
-                .map(|weight| self.times(5, weight))
+                .map(|weight| self.times(Parameter::Higher, weight))
                 .collect(),
         }
     }
@@ -123,14 +134,14 @@ impl Snake {
             self.factors.places.clone()
         };
         Factors {
-            common: self.body.schedules.at(t),
+            common: self.body.schedules.all_at(t),
             places,
         }
     }
 
     /// The factors halfway between those of two moments.
     pub(crate) fn halfway(&self, t: f64, one: &Factors, two: &Factors) -> Factors {
-        one.between(two, self.body.schedules.at(t))
+        one.between(two, self.body.schedules.all_at(t))
     }
 
     /// Let the parameters be those at time `t` for nodes at `x`; true if any changed.
@@ -153,8 +164,8 @@ impl Snake {
     /// Let these be the factors.
     pub(crate) fn take(&mut self, factors: Factors) {
         let (material, mass, damping) = scaled(&self.body, &factors);
-        let elastic = factors.differ(&self.factors, 0..3) || factors.differ(&self.factors, 5..6);
-        let heavier = factors.differ(&self.factors, 3..4);
+        let elastic = factors.differ(&self.factors, &Parameter::ELASTIC);
+        let heavier = factors.differ(&self.factors, &[Parameter::Mass]);
         (self.mass, self.damping) = (mass, damping);
         if elastic {
             // the same profiles passed with other factors at the door, so this cannot be refused
@@ -166,7 +177,7 @@ impl Snake {
             self.material = material;
         }
         if (elastic || heavier) && self.inner.is_some() {
-            let mass = factors.by_place().times(3, &self.body.mass);
+            let mass = factors.by_place().times(Parameter::Mass, &self.body.mass);
             self.inner = Inner::new(&self.body, mass, &self.material).unwrap_or_default();
         }
         self.factors = factors;

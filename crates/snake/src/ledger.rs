@@ -6,7 +6,7 @@ use integrator::{Fault, Scheme, Start, State, System};
 use crate::account::Touched;
 use crate::algebra::{Algebra, Booked};
 use crate::factors::Factors;
-use crate::{Energies, Snake};
+use crate::{Energies, Parameter, Snake};
 
 /// Follows a run and keeps account of what has no potential.
 ///
@@ -244,7 +244,7 @@ impl Ledger {
     fn stop(&mut self, snake: &mut Snake) -> Result<(), Fault> {
         let (h, mut stopped, mut any) = (snake.body().spacing, 0.0, false);
         // the masses of that moment, not those of the step's end
-        let mass = self.factors.times(3, &snake.body().mass);
+        let mass = self.factors.times(Parameter::Mass, &snake.body().mass);
         for (i, v) in self.before.v.iter_mut().enumerate() {
             if snake.held()[i] && *v != DVec2::ZERO {
                 stopped += 0.5 * h * mass.at(i) * v.length_squared();

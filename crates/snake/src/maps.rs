@@ -6,8 +6,9 @@ use elastic::Topology;
 use field::Map;
 use glam::DVec2;
 
-use crate::SnakeError;
 use crate::error::finite_at_least;
+use crate::parameter::PerParameter;
+use crate::{Parameter, SnakeError};
 
 /// One optional map of factors for each parameter of the motion.
 ///
@@ -40,16 +41,8 @@ pub struct Maps {
     pub every: f64,
 }
 
-/// Factors of the five parameters by place: one a node, where there is a map.
-pub(crate) type Places = [Option<Vec<f64>>; 5];
-
-const NAMES: [&str; 5] = [
-    "a factor of the tether",
-    "a factor of the tension",
-    "a factor of the rigidity",
-    "a factor of the mass",
-    "a factor of the damping",
-];
+/// Factors by place: one a node, where a parameter has a map.
+pub(crate) type Places = PerParameter<Option<Vec<f64>>>;
 
 impl Maps {
     /// Whether nothing changes with place.
@@ -70,60 +63,69 @@ impl Maps {
     /// a finite number above 0.
     pub fn validate(&self) -> Result<(), SnakeError> {
         finite_at_least("the time between looks", 0.0, "at least 0", self.every)?;
-        for (k, map) in self.all().into_iter().enumerate() {
-            let Some(map) = map else { continue };
-            let (least, bound) = if k == MASS {
+        for parameter in Parameter::ALL {
+            let Some(map) = self.of(parameter) else {
+                continue;
+            };
+            let (least, bound) = if parameter == Parameter::Mass {
                 (f64::MIN_POSITIVE, "above 0")
             } else {
                 (0.0, "at least 0")
             };
-            finite_at_least(NAMES[k], least, bound, map.least())?;
+            finite_at_least(factor_of(parameter), least, bound, map.least())?;
         }
         Ok(())
     }
 
     /// The factors under nodes at `x`. O(n).
     pub(crate) fn at(&self, x: &[DVec2], topology: Topology) -> Places {
-        let mut k = 0;
-        self.all().map(|map| {
-            let edges = k == TENSION;
-            k += 1;
-            map.map(|map| {
-                if edges {
-                    middles(x, topology).map(|p| map.at(p)).collect()
-                } else {
-                    x.iter().map(|&p| map.at(p)).collect()
-                }
+        PerParameter::of(|parameter| {
+            let map = self.of(parameter)?;
+            Some(if parameter == Parameter::Tension {
+                middles(x, topology).map(|p| map.at(p)).collect()
+            } else {
+                x.iter().map(|&p| map.at(p)).collect()
             })
         })
     }
 
     /// The factors that ask for the shortest steps, at each of `n` nodes; of the damping the largest, or the least.
     pub(crate) fn hardest(&self, n: usize, damped: bool) -> Places {
-        let mut k = 0;
-        self.all().map(|map| {
-            let least = k == MASS || k == DAMPING && !damped;
-            k += 1;
-            map.map(|map| vec![if least { map.least() } else { map.largest() }; n])
+        PerParameter::of(|parameter| {
+            let map = self.of(parameter)?;
+            let least = match parameter {
+                Parameter::Mass => true,
+                Parameter::Damping => !damped,
+                _ => false,
+            };
+            Some(vec![if least { map.least() } else { map.largest() }; n])
         })
     }
 
-    fn all(&self) -> [Option<&Map>; 5] {
-        [
-            &self.tether,
-            &self.tension,
-            &self.rigidity,
-            &self.mass,
-            &self.damping,
-        ]
-        .map(Option::as_deref)
+    fn of(&self, parameter: Parameter) -> Option<&Map> {
+        match parameter {
+            Parameter::Tether => self.tether.as_deref(),
+            Parameter::Tension => self.tension.as_deref(),
+            Parameter::Rigidity => self.rigidity.as_deref(),
+            Parameter::Mass => self.mass.as_deref(),
+            Parameter::Damping => self.damping.as_deref(),
+            Parameter::Higher | Parameter::Internal => None,
+        }
     }
 }
 
-/// Their numbers among the five.
-const TENSION: usize = 1;
-const MASS: usize = 3;
-const DAMPING: usize = 4;
+/// The user's word for the factors of a parameter.
+const fn factor_of(parameter: Parameter) -> &'static str {
+    match parameter {
+        Parameter::Tether => "a factor of the tether",
+        Parameter::Tension => "a factor of the tension",
+        Parameter::Rigidity => "a factor of the rigidity",
+        Parameter::Higher => "a factor of the higher orders",
+        Parameter::Mass => "a factor of the mass",
+        Parameter::Damping => "a factor of the damping",
+        Parameter::Internal => "a factor of the internal damping",
+    }
+}
 
 /// The middle of the edge from each node to the next; the last node of an open curve itself.
 fn middles(x: &[DVec2], topology: Topology) -> impl Iterator<Item = DVec2> + '_ {

@@ -4,15 +4,15 @@ use banded::Operator;
 use elastic::{End, Material, Topology};
 
 use crate::factors::Factors;
-use crate::{Body, Center, SnakeError};
+use crate::{Body, Center, Parameter, SnakeError};
 
-/// The parameters of `body` times the five factors.
+/// The parameters of `body` times their factors.
 pub(crate) fn scaled(body: &Body, factors: &Factors) -> Parameters {
     let n = body.len();
     (
         factors.material(&body.material),
-        factors.times(3, &body.mass).to_vec(n),
-        factors.times(4, &body.damping).to_vec(n),
+        factors.times(Parameter::Mass, &body.mass).to_vec(n),
+        factors.times(Parameter::Damping, &body.damping).to_vec(n),
     )
 }
 

@@ -1,7 +1,8 @@
 //! Parameters that change with time: report §3.4.1 wishes for them, "allow these parameters to
 //! change values through time" being left undone there.
 
-use crate::SnakeError;
+use crate::parameter::PerParameter;
+use crate::{Parameter, SnakeError};
 
 /// A factor as a function of time: straight lines between given points, constant beyond them.
 ///
@@ -95,8 +96,8 @@ pub struct Schedules {
 /// Times at which step limits are asked for, one by one.
 const MOST_POINTS: usize = 32;
 
-/// A factor for each of them, in the order tether, tension, rigidity, mass, damping, higher.
-pub(crate) type Factors = [f64; 6];
+/// A factor for each parameter; that of internal damping is 1.
+pub(crate) type Factors = PerParameter<f64>;
 
 impl Schedules {
     /// Whether nothing changes with time.
@@ -105,17 +106,15 @@ impl Schedules {
         *self == Self::default()
     }
 
-    /// The factors at time `t`, in the order tether, tension, rigidity, mass, damping, higher.
+    /// The factor of a parameter at time `t`.
     #[must_use]
-    pub fn at(&self, t: f64) -> [f64; 6] {
-        self.all().map(|schedule| schedule.map_or(1.0, |s| s.at(t)))
+    pub fn at(&self, parameter: Parameter, t: f64) -> f64 {
+        self.of(parameter).map_or(1.0, |schedule| schedule.at(t))
     }
 
-    /// The largest factors at any time, in the same order.
-    #[must_use]
-    pub fn largest(&self) -> [f64; 6] {
-        self.all()
-            .map(|schedule| schedule.map_or(1.0, Schedule::largest))
+    /// All of them.
+    pub(crate) fn all_at(&self, t: f64) -> Factors {
+        PerParameter::of(|parameter| self.at(parameter, t))
     }
 
     /// Factors that between them ask for the shortest steps that are needed from the time `from` to the time `to`.
@@ -133,38 +132,51 @@ impl Schedules {
             let times = schedule.points.iter().map(|&(time, _)| time);
             times.collect()
         };
-        let mut times: Vec<f64> = self.all().into_iter().flatten().flat_map(points).collect();
+        let mut times: Vec<f64> = self.all().flat_map(points).collect();
         times.iter_mut().for_each(|t| *t = t.clamp(from, to));
         times.sort_by(f64::total_cmp);
         times.dedup();
-        let mut each: Vec<Factors> = times.iter().map(|&t| self.at(t)).collect();
+        let mut each: Vec<Factors> = times.iter().map(|&t| self.all_at(t)).collect();
         each.dedup();
         if each.len() <= MOST_POINTS {
             return each;
         }
-        let most = |k: usize| each.iter().map(|f| f[k]).fold(0.0, f64::max);
-        let least = |k: usize| each.iter().map(|f| f[k]).fold(f64::INFINITY, f64::min);
-        let rest = |damping| [most(0), most(1), most(2), least(3), damping, most(5)];
-        vec![rest(most(4)), rest(least(4))]
+        let most = |k: Parameter| each.iter().map(|f| f[k]).fold(0.0, f64::max);
+        let least = |k: Parameter| each.iter().map(|f| f[k]).fold(f64::INFINITY, f64::min);
+        let rest = |damping| {
+            PerParameter::of(|parameter| match parameter {
+                Parameter::Mass => least(parameter),
+                Parameter::Damping => damping,
+                _ => most(parameter),
+            })
+        };
+        let damping = Parameter::Damping;
+        vec![rest(most(damping)), rest(least(damping))]
     }
 
     /// When the last of the factors has changed for the last time; minus infinity if none does.
     #[must_use]
     pub fn end(&self) -> f64 {
-        let ends = self.all().into_iter().flatten().map(Schedule::end);
+        let ends = self.all().map(Schedule::end);
         ends.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    fn all(&self) -> [Option<&Schedule>; 6] {
-        [
-            &self.tether,
-            &self.tension,
-            &self.rigidity,
-            &self.mass,
-            &self.damping,
-            &self.higher,
-        ]
-        .map(Option::as_ref)
+    fn all(&self) -> impl Iterator<Item = &Schedule> {
+        Parameter::ALL
+            .into_iter()
+            .filter_map(|parameter| self.of(parameter))
+    }
+
+    const fn of(&self, parameter: Parameter) -> Option<&Schedule> {
+        match parameter {
+            Parameter::Tether => self.tether.as_ref(),
+            Parameter::Tension => self.tension.as_ref(),
+            Parameter::Rigidity => self.rigidity.as_ref(),
+            Parameter::Higher => self.higher.as_ref(),
+            Parameter::Mass => self.mass.as_ref(),
+            Parameter::Damping => self.damping.as_ref(),
+            Parameter::Internal => None,
+        }
     }
 }
 

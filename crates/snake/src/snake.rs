@@ -11,7 +11,7 @@ use crate::inner::Inner;
 use crate::parameters::{operator, pushes, scaled};
 use crate::renewal::Renewal;
 use crate::turn::TurningRest;
-use crate::{Acting, Body, Center, Curve, SnakeError, Wall, WallLaw, World};
+use crate::{Acting, Body, Center, Curve, Parameter, SnakeError, Wall, WallLaw, World};
 
 /// A snake: a [`Body`] in a [`World`], ready to be moved by any scheme of [`integrator`].
 #[derive(Debug, Clone)]
@@ -77,14 +77,18 @@ impl Snake {
         let held = body.topology.held(n);
         let places = (!body.maps.is_empty()).then(|| Box::new(body.maps.hardest(n, true)));
         let factors = Factors {
-            common: body.schedules.at(0.0),
+            common: body.schedules.all_at(0.0),
             places,
         };
         let (material, mass, damping) = scaled(&body, &factors);
         let stiffness = operator(&body, &material, &weights, &held)?;
         let pushes = pushes(&body, &material);
         let turning = TurningRest::new(&body, &weights, &factors);
-        let inner = Inner::new(&body, factors.by_place().times(3, &body.mass), &material)?;
+        let inner = Inner::new(
+            &body,
+            factors.by_place().times(Parameter::Mass, &body.mass),
+            &material,
+        )?;
         Ok(Self {
             turning,
             inner,

@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use crate::factors;
 use crate::schedule::Factors;
-use crate::{Body, SnakeError};
+use crate::{Body, Parameter, SnakeError};
 
 /// Whether the rest shape turns with the body (report §5.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -147,8 +147,8 @@ impl TurningRest {
 }
 
 /// The factors of the elastic densities, in the order of the parts.
-const fn elastic_ones([tether, tension, rigidity, _, _, higher]: Factors) -> [f64; 4] {
-    [tether, tension, rigidity, higher]
+fn elastic_ones(factors: Factors) -> [f64; 4] {
+    Parameter::ELASTIC.map(|parameter| factors[parameter])
 }
 
 /// K r with the frame's reaction taken out, and as it is.

@@ -216,3 +216,47 @@ proptest! {
         prop_assert!(ahead <= 1e-4 * (1.0 + 1e-9));
     }
 }
+
+proptest! {
+    /// Filed again and again while the curves move, slowly and fast, at times with other nodes: the same each time as
+    /// looking at every edge.
+    #[test]
+    fn curves_that_move_are_found_as_by_looking_at_every_edge(
+        ways in prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64, 0.0..1.0_f64), 30),
+        reach in 0.2..3.0_f64,
+        speed in prop_oneof![Just(0.01), Just(0.1), Just(2.0)],
+    ) {
+        let mut curves = vec![
+            (circle(DVec2::ZERO, 4.0, 24), true),
+            (circle(DVec2::new(8.5, 0.3), 4.0, 31), true),
+            (vec![DVec2::new(-3.0, 4.5), DVec2::new(2.0, 5.0), DVec2::new(9.0, 4.6)], false),
+        ];
+        let mut neighbours = Neighbours::default();
+        let mut found = Vec::new();
+        for (step, &(x, y, bend)) in ways.iter().enumerate() {
+            for (k, (nodes, _)) in curves.iter_mut().enumerate() {
+                for (i, p) in nodes.iter_mut().enumerate() {
+                    let own = if (i + k + step) % 3 == 0 { bend } else { 0.3 };
+                    *p += speed * own * if k == 1 { DVec2::new(-x, y) } else { DVec2::new(x, y) };
+                }
+            }
+            if step == 17 {
+                curves[0].0.pop();
+            }
+            let all = curves.iter().map(|(nodes, closed)| (&nodes[..], *closed));
+            neighbours.rebuild(all, reach).unwrap();
+            for (k, (nodes, _)) in curves.iter().enumerate() {
+                for node in 0..nodes.len() {
+                    neighbours.near_node(k, node, 2, reach, &mut found);
+                    let each = found.iter().map(|near| (near.curve, near.spot.edge, near.distance));
+                    prop_assert_eq!(each.collect::<Vec<_>>(), slow(&curves, (k, node), 2, reach));
+                    // and about the point there, which has no list
+                    neighbours.near_point(nodes[node], reach, &mut found);
+                    let others = found.iter().filter(|near| near.curve != k).count();
+                    let asked = slow(&curves, (k, node), usize::MAX / 2, reach).len();
+                    prop_assert_eq!(others, asked);
+                }
+            }
+        }
+    }
+}

@@ -3,55 +3,111 @@
 use elastic::Profile;
 use glam::DVec2;
 use integrator::State;
-use snake::{Acting, Body, World};
+use snake::{Acting, Body, Snake, World};
 
 use super::force;
 use crate::SceneError;
 use crate::file::{DirectionText, ForceText, HandText, KindText, SceneText, UpkeepText};
-use crate::hand::{Grip, Hand, Held};
+use crate::hand::{Grip, Held};
 
-/// The hands of a scene, and the world with their forces in it, which do nothing yet.
-pub(super) fn hand(
+/// The hands of a scene on its own snake, and the world with their forces in it, which do nothing yet.
+pub(super) fn own(
     text: &SceneText,
     mut world: World,
     body: &Body,
     start: &State,
-) -> Result<(Hand, World), SceneError> {
+) -> Result<(Vec<Grip>, World), SceneError> {
     let closed = body.topology.is_closed();
     let mut grips = Vec::new();
     if !text.hand.is_empty() {
         possible(text)?;
     }
-    for (i, hand) in text.hand.iter().enumerate() {
-        let key = format!("hand {i}");
-        let (from, until) = times(&key, hand)?;
-        let held = match (&hand.force, hand.hold) {
-            (None, Some(stretch)) => Held::Nodes(nodes(&key, stretch, start.len(), closed)?),
-            (Some(force), None) => {
-                let key = format!("{key}: force");
-                blind(&key, force)?;
-                world = force::add(world, &[(key, force.clone())], None, &start.x, closed)?;
-                let Some(acting) = world.forces.pop() else {
-                    continue; // one was added
-                };
-                let mut text = Box::new(force.clone());
-                text.common.name = Some(acting.name().to_owned());
-                let idle = acting.clone().weighted(Profile::Uniform(0.0));
-                world.forces.push(idle.clone());
-                Held::Force {
-                    text,
-                    idle,
-                    full: Box::new(acting),
-                }
-            }
-            _ => {
-                let message = "one of the keys hold and force would do";
-                return Err(SceneError::key(&key, message));
-            }
-        };
-        grips.push(Grip { from, until, held });
+    let own = text
+        .hand
+        .iter()
+        .enumerate()
+        .filter(|(_, hand)| hand.snake == 0);
+    for (i, hand) in own {
+        let (mut grip, given) = grip(&format!("hand {i}"), hand, &world, start, closed)?;
+        if let (Held::Force { idle, .. }, Some(acting)) = (&mut grip.held, given) {
+            // its column in a record is there all the time
+            let still = acting.weighted(Profile::Uniform(0.0));
+            world.forces.push(still.clone());
+            *idle = Some(still);
+        }
+        grips.push(grip);
     }
-    Ok((Hand::of(grips, closed), world))
+    Ok((grips, world))
+}
+
+/// The hands on the further snakes.
+pub(super) fn others(text: &SceneText, others: &[(Snake, State)]) -> Result<Vec<Grip>, SceneError> {
+    let mut grips = Vec::new();
+    let theirs = text
+        .hand
+        .iter()
+        .enumerate()
+        .filter(|(_, hand)| hand.snake > 0);
+    for (i, hand) in theirs {
+        let key = format!("hand {i}");
+        let Some((snake, start)) = others.get(hand.snake - 1) else {
+            let message = format!(
+                "must be at most {}, the last snake there is, got {}",
+                others.len(),
+                hand.snake
+            );
+            return Err(SceneError::key(&format!("{key}: snake"), message));
+        };
+        let closed = snake.body().topology.is_closed();
+        grips.push(grip(&key, hand, snake.world(), start, closed)?.0);
+    }
+    Ok(grips)
+}
+
+/// One hand, and the force that it brings, with a name that no other in the world has.
+fn grip(
+    key: &str,
+    hand: &HandText,
+    world: &World,
+    start: &State,
+    closed: bool,
+) -> Result<(Grip, Option<Acting>), SceneError> {
+    let (from, until) = times(key, hand)?;
+    let (held, given) = match (&hand.force, hand.hold) {
+        (None, Some(stretch)) => (Held::Nodes(nodes(key, stretch, start.len(), closed)?), None),
+        (Some(force), None) => {
+            let key = format!("{key}: force");
+            blind(&key, force)?;
+            let mut world = force::add(
+                world.clone(),
+                &[(key.clone(), force.clone())],
+                None,
+                &start.x,
+                closed,
+            )?;
+            let Some(acting) = world.forces.pop() else {
+                return Err(SceneError::key(&key, "is no force"));
+            };
+            let mut text = Box::new(force.clone());
+            text.common.name = Some(acting.name().to_owned());
+            let full = Box::new(acting.clone());
+            let idle = None;
+            (Held::Force { text, idle, full }, Some(acting))
+        }
+        _ => {
+            let message = "needs one of the keys hold and force";
+            return Err(SceneError::key(key, message));
+        }
+    };
+    let snake = hand.snake;
+    let grip = Grip {
+        snake,
+        closed,
+        from,
+        until,
+        held,
+    };
+    Ok((grip, given))
 }
 
 /// Refuse hands on nodes that are numbered anew during the run, and on nodes that must be free.

@@ -28,6 +28,7 @@ pub(crate) use plan::USUAL_TOLERANCE;
 pub(crate) use world::{outside, smoothing};
 
 use crate::file::{InvalidText, PictureText, Rule, RulesText, SceneText, UpDown, ViewText};
+use crate::hand::Hand;
 use crate::picture::Invalid;
 use crate::scene::{Scene, View};
 use crate::{Picture, SceneError};
@@ -103,7 +104,7 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
     notes.extend(sight.as_ref().and_then(Sight::note));
     let closed = body.topology.is_closed();
     let (world, field) = world::world(text, rules, sight.as_ref(), &start.x, closed)?;
-    let (hand, world) = hand::hand(text, world, &body, &start)?;
+    let (mut grips, world) = hand::own(text, world, &body, &start)?;
     let mut snake = Snake::new(body, world).map_err(|e| refused("snake", &e))?;
     ends::slide(text, &mut snake, &start, picture.as_ref())?;
     body::damp(text, &mut snake, &start)?;
@@ -113,6 +114,8 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         Turning::new(&snake).map_err(|e| SceneError::key("snake.frame", e))?;
     }
     let company = company::company(text, rules, sight.as_ref(), &snake, files)?;
+    let others = company.as_ref().map_or(&[][..], |company| &company.others);
+    grips.extend(hand::others(text, others)?);
     drop(sight);
     Ok(Scene {
         name: name.to_owned(),
@@ -125,7 +128,7 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         snake,
         terms,
         tips,
-        hand,
+        hand: Hand::of(grips),
         company,
         start,
         plan,

@@ -7,6 +7,9 @@ use super::ForceText;
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct HandText {
+    /// Whose curve, counted from 0: the scene's own snake first, then those of `[[also]]`.
+    #[serde(default)]
+    pub snake: usize,
     /// When it takes hold; from the start when not given.
     #[serde(default)]
     pub from: f64,
