@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use indicatif::{ProgressBar, ProgressStyle};
+use io::{Claims, Picture, shapes};
 use scene::field::{Polarity, Smoothing};
 use scene::integrator::Scheme;
 use scene::snake::{Certificate, Outcome};
-use scene::{Claims, Computing, Contour, Fields, ForceChoice, Picture, Record, Scene, SceneError};
+use scene::{Computing, Fields, ForceChoice, Record, Scene, SceneError};
 
 use crate::args;
 use crate::output::{Output, put, say};
@@ -111,7 +112,7 @@ pub(crate) fn fit(args: &args::Fit) -> Answer {
         steps: args.steps,
     };
     two_inputs(&args.image, Some(&args.from))?;
-    let contour = Contour::load(&args.from)?;
+    let contour = shapes::load_one(&args.from)?;
     let picture = Picture::load(&args.image)?;
     let output = Output {
         record: None,
@@ -144,8 +145,8 @@ pub(crate) fn field(args: &args::Field) -> Answer {
     let mut claims = Claims::default();
     claims.reads(&args.image);
     args.from.iter().for_each(|path| claims.reads(path));
-    let curve = args.from.as_deref().map(Contour::load).transpose()?;
-    let curve = curve.map(|contour| contour.points);
+    let curve = args.from.as_deref().map(shapes::load_one).transpose()?;
+    let curve = curve.map(|contour| contour.outer().to_vec());
     let fields = Fields {
         stages: args.all || args.kind.is_empty(),
         smoothing,
@@ -158,7 +159,14 @@ pub(crate) fn field(args: &args::Field) -> Answer {
         }
     }
     let mut text = String::new();
-    for file in fields.write(&picture, &args.out)? {
+    let flags = [
+        ("field.sigma", "--sigma", true),
+        ("field.passes", "--passes", true),
+        ("field.kind", "--kind", true),
+        ("field.curve", "--from", true),
+    ];
+    let written = fields.write(&picture, &args.out);
+    for file in written.map_err(|error| by_flag(error, &flags))? {
         // writing to a String cannot fail
         let _ = writeln!(text, "{}", file.display());
     }
@@ -299,11 +307,17 @@ fn by_flag(error: SceneError, flags: &Flags<'_>) -> SceneError {
         SceneError::Key { key, message } => (key.as_str(), message),
         _ => return error,
     };
-    match flags
-        .iter()
-        .find(|(known, _, given)| *given && *known == at)
+    // a key within the one that a flag stands for is told by the flag and what follows
+    let below = |known: &str| {
+        at.strip_prefix(known)
+            .filter(|rest| !rest.starts_with(char::is_alphanumeric))
+    };
+    let found = flags.iter().filter(|(_, _, given)| *given);
+    match found
+        .filter_map(|(known, flag, _)| Some((flag, below(known)?)))
+        .next()
     {
-        Some((_, flag, _)) => key(flag, message),
+        Some((flag, rest)) => key(&format!("{flag}{rest}"), message),
         None => error,
     }
 }

@@ -3,11 +3,12 @@
 use std::ops::ControlFlow;
 
 use integrator::{SchemeError, State};
+use io::record::Curve;
 use snake::{
     Contact, Crowd, CrowdError, Energies, Event, EventKind, Outcome, Snake, Timing, Upkeep,
 };
 
-use crate::record::{Curve, Frame, Record};
+use crate::record::{Frame, Record};
 use crate::scene::{Scene, unsettled};
 use crate::{Evidence, SceneError};
 
@@ -93,25 +94,17 @@ impl Scene {
 /// The moment that a crowd is at.
 fn frame(crowd: &mut Crowd, velocities: bool, energies: bool) -> Frame {
     let energies = energies.then(|| crowd.energies());
-    let mut curves = crowd.members().iter().map(|member| Curve {
+    let curves = crowd.members().iter().map(|member| Curve {
         id: member.id,
         closed: member.is_closed(),
         nodes: member.state.x.clone(),
         velocities: velocities.then(|| member.state.v.clone()),
     });
-    let first = curves.next();
-    let others = curves.collect();
-    let (id, nodes, velocities) = first.map_or((0, Vec::new(), None), |curve| {
-        (curve.id, curve.nodes, curve.velocities)
-    });
     Frame {
         step: crowd.steps(),
         t: crowd.t(),
-        nodes,
-        velocities,
+        curves: curves.collect(),
         energies,
-        first: id,
-        others,
     }
 }
 

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use field::ForceField;
 use glam::DVec2;
 use integrator::{Scheme, SchemeError, Start, State};
+use io::IoError;
 use snake::{
     Certificate, Ledger, Outcome, Pace, Snake, Term, Tips, Turning, TurningStepper, Until,
 };
@@ -17,7 +18,7 @@ use crate::company::Company;
 use crate::hand::Hand;
 use crate::limits::{MOST_KEPT, MOST_SCENE_BYTES, MOST_STEPS};
 use crate::record::{Frame, Record};
-use crate::{Evidence, Picture, SceneError, build, catalogue, read, toml_error};
+use crate::{Evidence, Picture, SceneError, build, catalogue, toml_error};
 
 /// How a drawing should look at a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -194,13 +195,13 @@ impl Scene {
     ///
     /// A file that cannot be read, or whatever [`Scene::parse`] refuses, by the file's name.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
-        let text = read::text(path, "a scene in TOML", MOST_SCENE_BYTES)?;
+        let text = io::read_text(path, "a scene in TOML", MOST_SCENE_BYTES)?;
         let name = path
             .file_stem()
             .map_or_else(String::new, |s| s.to_string_lossy().into_owned());
         let folder = path.parent().unwrap_or_else(|| Path::new("."));
         let mut scene = Self::parse(&name, &text, folder)
-            .map_err(|error| SceneError::file(&read::called(path), error))?;
+            .map_err(|error| IoError::file(&io::called(path), error))?;
         scene.inputs.push(path.to_owned());
         Ok(scene)
     }

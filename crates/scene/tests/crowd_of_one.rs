@@ -43,7 +43,7 @@ fn a_crowd_of_one_is_a_lone_snake() {
         assert_eq!(one.outcome, other.outcome, "{name}");
         let (a, b) = (one.last().unwrap(), other.last().unwrap());
         assert_eq!((a.step, a.t.to_bits()), (b.step, b.t.to_bits()), "{name}");
-        for (p, q) in a.nodes.iter().zip(&b.nodes) {
+        for (p, q) in a.nodes().iter().zip(b.nodes()) {
             let bits = |x: f64, y: f64| (x.to_bits(), y.to_bits());
             assert_eq!(bits(p.x, p.y), bits(q.x, q.y), "{name}");
         }

@@ -102,7 +102,7 @@ fn the_depth_of_a_picture_changes_nothing() {
         let map = format!("{{ value = 3.0, map = {map}, low = 0.5, high = 2.0 }}");
         let mut scene = Scene::parse("t", &text(&picture, &map, "1.0", ""), &folder).unwrap();
         let record = scene.run(&mut |_| ControlFlow::Continue(())).unwrap();
-        record.last().unwrap().nodes.clone()
+        record.last().unwrap().nodes().to_vec()
     };
     for map in [
         "\"grey\"",

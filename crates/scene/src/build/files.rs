@@ -5,13 +5,16 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
+use io::shapes::{self, Shape};
+use io::{IoError, Picture};
+
+use crate::SceneError;
 use crate::file::{DampingText, ParameterText, SceneText, ShapeText, SourceText};
-use crate::{Contour, Picture, SceneError};
 
 /// The files beside a scene, each read once: a pipe can be read no second time, and a hundred snakes may begin alike.
 pub(super) struct Files<'a> {
     folder: &'a Path,
-    contours: RefCell<BTreeMap<PathBuf, Rc<Contour>>>,
+    contours: RefCell<BTreeMap<PathBuf, Rc<Shape>>>,
     pictures: RefCell<BTreeMap<PathBuf, Rc<Picture>>>,
 }
 
@@ -29,8 +32,8 @@ impl<'a> Files<'a> {
         self.folder.join(name)
     }
 
-    pub(super) fn contour(&self, name: &str) -> Result<Rc<Contour>, SceneError> {
-        once(&self.contours, self.path(name), Contour::load)
+    pub(super) fn contour(&self, name: &str) -> Result<Rc<Shape>, SceneError> {
+        once(&self.contours, self.path(name), shapes::load_one)
     }
 
     /// A picture of which every pixel counts.
@@ -42,7 +45,7 @@ impl<'a> Files<'a> {
 fn once<T>(
     known: &RefCell<BTreeMap<PathBuf, Rc<T>>>,
     path: PathBuf,
-    load: fn(&Path) -> Result<T, SceneError>,
+    load: fn(&Path) -> Result<T, IoError>,
 ) -> Result<Rc<T>, SceneError> {
     if let Some(there) = known.borrow().get(&path) {
         return Ok(Rc::clone(there));

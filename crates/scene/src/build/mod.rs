@@ -2,6 +2,7 @@
 
 mod body;
 mod company;
+mod drawn;
 mod edge_field;
 mod ends;
 mod files;
@@ -17,6 +18,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::DVec2;
+use io::{Invalid, Picture};
 use snake::{Snake, SnakeError, Turning};
 
 use files::Files;
@@ -28,9 +30,8 @@ pub(crate) use plan::USUAL_TOLERANCE;
 pub(crate) use world::{outside, smoothing};
 
 use crate::file::{InvalidText, PictureText, Rule, RulesText, SceneText, UpDown, ViewText};
-use crate::picture::Invalid;
 use crate::scene::{Scene, View};
-use crate::{Picture, SceneError};
+use crate::{SceneError, catalogue};
 
 /// Whose rules each part follows, after `all` has been filled in.
 #[derive(Debug, Clone, Copy)]
@@ -141,9 +142,9 @@ fn picture(text: &PictureText, files: &Files<'_>) -> Result<Picture, SceneError>
         Some(InvalidText::Refuse) | None => Invalid::Refuse,
     };
     let picture = match (&text.file, &text.shipped, &text.drawn) {
-        (Some(file), None, None) => Picture::load_with(&files.path(file), invalid),
-        (None, Some(name), None) => Picture::shipped(name),
-        (None, None, Some(drawn)) => Picture::drawn(drawn),
+        (Some(file), None, None) => Ok(Picture::load_with(&files.path(file), invalid)?),
+        (None, Some(name), None) => catalogue::picture(name),
+        (None, None, Some(drawn)) => drawn::picture(drawn),
         (None, None, None) => Err(SceneError::key(
             "picture",
             "is not given; one of the keys file, shipped and drawn would do",

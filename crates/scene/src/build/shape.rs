@@ -89,8 +89,8 @@ pub(super) fn nodes(
             number::places(&at("nodes"), &nodes)?;
             Ok(nodes)
         }
-        ShapeText::File(file) => through(&at("file"), &files.contour(file)?.points),
-        ShapeText::Shipped(name) => through(&at("shipped"), &catalogue::contour(name)?.points),
+        ShapeText::File(file) => through(&at("file"), files.contour(file)?.outer()),
+        ShapeText::Shipped(name) => through(&at("shipped"), catalogue::contour(name)?.outer()),
     }
 }
 

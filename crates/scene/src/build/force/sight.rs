@@ -9,7 +9,6 @@ use super::super::edge_field::{Computing, Wanted, edge_field};
 use super::{At, Made, above_nothing, either, grids, is_field, is_region, looks};
 use crate::file::{ForceText, KindText};
 use crate::limits::{MOST_FIELDS, USUALLY_WHOLE};
-use crate::picture::pixels::spread_of;
 use crate::{Picture, SceneError};
 
 /// A picture as the kinds of force look at it.
@@ -41,7 +40,7 @@ impl<'a> Sight<'a> {
         let sight = Self {
             picture,
             grey: OnceCell::new(),
-            contrast: spread_of(limits),
+            contrast: picture.spread(),
             range: limits[3] - limits[0],
             computing: Computing::Auto,
             whole_up_to: USUALLY_WHOLE,

@@ -219,7 +219,7 @@ fn known_compression(number: u64) -> Result<(), String> {
 fn unsupported(what: &str) -> String {
     format!(
         "a TIFF of this kind is not supported: {}; grey or RGB of 8 or 16 bits, or floats, are needed",
-        crate::error::clip_to(what, 160)
+        crate::text::clip_to(what, 160)
     )
 }
 

@@ -3,90 +3,86 @@
 use field::{EdgeForce, Grid, Smoothing};
 use glam::DVec2;
 
-use super::Picture;
+use io::Picture;
+
+use super::{number, smoothing};
 use crate::SceneError;
-use crate::build::{number, smoothing};
 use crate::file::{DrawnText, RegionText};
 use crate::limits::{MOST_CORNERS, MOST_DRAWN};
 
-impl Picture {
-    /// A picture drawn from numbers: a region on a ground, blurred, with noise from a seed.
-    ///
-    /// A pixel's level is the share of an 8 × 8 grid of points in its square that lies in the
-    /// region, between ground and region; then a Gaussian blur, then white noise, then rounding to
-    /// whole levels 0 … 255.
-    pub(crate) fn drawn(text: &DrawnText) -> Result<Self, SceneError> {
-        let key = |name: &str, message: String| {
-            SceneError::key(&format!("picture.drawn.{name}"), message)
-        };
-        let [width, height] = text.size;
-        let pixels = (width as u64).saturating_mul(height as u64);
-        if pixels == 0 || pixels > MOST_DRAWN {
-            let message = format!(
-                "got {width} × {height}; from 1 × 1 to {MOST_DRAWN} pixels in all would do"
-            );
-            return Err(key("size", message));
+/// A picture drawn from numbers: a region on a ground, blurred, with noise from a seed.
+///
+/// A pixel's level is the share of an 8 × 8 grid of points in its square that lies in the
+/// region, between ground and region; then a Gaussian blur, then white noise, then rounding to
+/// whole levels 0 … 255.
+pub(super) fn picture(text: &DrawnText) -> Result<Picture, SceneError> {
+    let key =
+        |name: &str, message: String| SceneError::key(&format!("picture.drawn.{name}"), message);
+    let [width, height] = text.size;
+    let pixels = (width as u64).saturating_mul(height as u64);
+    if pixels == 0 || pixels > MOST_DRAWN {
+        let message =
+            format!("got {width} × {height}; from 1 × 1 to {MOST_DRAWN} pixels in all would do");
+        return Err(key("size", message));
+    }
+    for (name, value, most) in [
+        ("blur", text.blur, 1000.0),
+        ("noise", text.noise, 1000.0),
+        ("background", text.background, 255.0),
+        ("foreground", text.foreground, 255.0),
+    ] {
+        if !(0.0..=most).contains(&value) {
+            return Err(key(name, format!("got {value}; from 0 to {most} would do")));
         }
-        for (name, value, most) in [
-            ("blur", text.blur, 1000.0),
-            ("noise", text.noise, 1000.0),
-            ("background", text.background, 255.0),
-            ("foreground", text.foreground, 255.0),
-        ] {
-            if !(0.0..=most).contains(&value) {
-                return Err(key(name, format!("got {value}; from 0 to {most} would do")));
-            }
-        }
-        check_region(&text.region)?;
-        // each by itself: those of a list are looked at one after another
-        let regions: Vec<&RegionText> = match &text.region {
-            RegionText::Any(list) => list.iter().collect(),
-            one => vec![one],
+    }
+    check_region(&text.region)?;
+    // each by itself: those of a list are looked at one after another
+    let regions: Vec<&RegionText> = match &text.region {
+        RegionText::Any(list) => list.iter().collect(),
+        one => vec![one],
+    };
+    let share = |center: DVec2| {
+        // each region is convex: with its four outermost points a pixel is inside as a whole
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
+        let whole = |region: &&RegionText| {
+            let mut corners = corners.iter();
+            corners.all(|&(i, j)| inside(region, center + DVec2::new(i, j) * (7.0 / 16.0)))
         };
-        let share = |center: DVec2| {
-            // each region is convex: with its four outermost points a pixel is inside as a whole
-            let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
-            let whole = |region: &&RegionText| {
-                let mut corners = corners.iter();
-                corners.all(|&(i, j)| inside(region, center + DVec2::new(i, j) * (7.0 / 16.0)))
-            };
-            if regions.iter().any(whole) {
-                return 1.0;
-            }
-            let mut share = 0.0;
-            for j in 0..8 {
-                for i in 0..8 {
-                    let offset =
-                        DVec2::new(f64::from(2 * i + 1), f64::from(2 * j + 1)) / 16.0 - 0.5;
-                    if regions.iter().any(|region| inside(region, center + offset)) {
-                        share += 1.0 / 64.0;
-                    }
+        if regions.iter().any(whole) {
+            return 1.0;
+        }
+        let mut share = 0.0;
+        for j in 0..8 {
+            for i in 0..8 {
+                let offset = DVec2::new(f64::from(2 * i + 1), f64::from(2 * j + 1)) / 16.0 - 0.5;
+                if regions.iter().any(|region| inside(region, center + offset)) {
+                    share += 1.0 / 64.0;
                 }
             }
-            share
+        }
+        share
+    };
+    let mut levels = Grid::from_shape_fn((height, width), |(y, x)| {
+        let share = share(DVec2::new(x as f64, y as f64));
+        text.background + (text.foreground - text.background) * share
+    });
+    if text.blur > 0.0 {
+        let gaussian = Smoothing::Gaussian(text.blur);
+        let blur = EdgeForce {
+            smoothing: smoothing("picture.drawn.blur", gaussian, (width, height))?,
+            gain: 1.0,
         };
-        let mut levels = Grid::from_shape_fn((height, width), |(y, x)| {
-            let share = share(DVec2::new(x as f64, y as f64));
-            text.background + (text.foreground - text.background) * share
-        });
-        if text.blur > 0.0 {
-            let gaussian = Smoothing::Gaussian(text.blur);
-            let blur = EdgeForce {
-                smoothing: smoothing("picture.drawn.blur", gaussian, (width, height))?,
-                gain: 1.0,
-            };
-            levels = field::edge_stages(&levels, &blur)
-                .map_err(|error| key("blur", error.to_string()))?
-                .smoothed;
-        }
-        for (at, level) in levels.iter_mut().enumerate() {
-            if text.noise > 0.0 {
-                *level += text.noise * normal(text.seed, at as u64);
-            }
-            *level = level.clamp(0.0, 255.0).round();
-        }
-        Ok(Self::from_levels(levels))
+        levels = field::edge_stages(&levels, &blur)
+            .map_err(|error| key("blur", error.to_string()))?
+            .smoothed;
     }
+    for (at, level) in levels.iter_mut().enumerate() {
+        if text.noise > 0.0 {
+            *level += text.noise * normal(text.seed, at as u64);
+        }
+        *level = level.clamp(0.0, 255.0).round();
+    }
+    Ok(Picture::from_levels(levels))
 }
 
 /// Whether a place is in a region that is no list.

@@ -5,7 +5,7 @@ use std::io::Cursor;
 use field::Grid;
 use tiff::encoder::{TiffEncoder, colortype};
 
-use crate::SceneError;
+use crate::IoError;
 
 /// Grids of one size as a NumPy array of shape (grids, height, width), float64, the least byte first.
 ///
@@ -41,8 +41,11 @@ pub fn npy(grids: &[&Grid]) -> Vec<u8> {
 /// # Errors
 ///
 /// A grid without pixels, or more than a TIFF can hold (4 GiB).
-pub fn float_tiff(grids: &[&Grid]) -> Result<Vec<u8>, SceneError> {
-    let refuse = |error: &dyn std::fmt::Display| SceneError::key("TIFF", error);
+pub fn float_tiff(grids: &[&Grid]) -> Result<Vec<u8>, IoError> {
+    let refuse = |error: &dyn std::fmt::Display| IoError::Format {
+        format: "TIFF",
+        message: error.to_string(),
+    };
     let mut bytes = Cursor::new(Vec::new());
     let mut encoder = TiffEncoder::new(&mut bytes).map_err(|e| refuse(&e))?;
     for grid in grids {

@@ -3,7 +3,7 @@
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use crate::SceneError;
+use crate::IoError;
 
 /// The folder a file lives in.
 fn folder(path: &Path) -> &Path {
@@ -52,8 +52,8 @@ fn is_descriptor(path: &Path) -> bool {
     false
 }
 
-fn unwritable(path: &Path, error: impl std::fmt::Display) -> SceneError {
-    SceneError::file(
+fn unwritable(path: &Path, error: impl std::fmt::Display) -> IoError {
+    IoError::file(
         path,
         format!("cannot be written: {error}; another file is needed"),
     )
@@ -97,7 +97,7 @@ fn replaced(target: &Path) -> std::io::Result<Option<std::fs::Metadata>> {
 /// # Errors
 ///
 /// A folder that is not there or cannot be written, a file that is read-only, or a full disk; by the path.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), SceneError> {
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
     let refuse = |error: std::io::Error| unwritable(path, error);
     if is_stream(path) {
         // what is a file behind a descriptor grows, as by any other output there
@@ -140,7 +140,7 @@ fn keep_owner(_: &std::fs::File, _: &std::fs::Metadata) {}
 /// # Errors
 ///
 /// A path that is a folder, a file that is read-only, or one in a folder that is not there or cannot be written.
-pub fn ready_file(path: &Path) -> Result<(), SceneError> {
+pub fn ready_file(path: &Path) -> Result<(), IoError> {
     let refuse = |error: std::io::Error| unwritable(path, error);
     if path.is_dir() || path.file_name().is_none() {
         return Err(unwritable(path, "it is a folder"));
@@ -158,10 +158,10 @@ pub fn ready_file(path: &Path) -> Result<(), SceneError> {
 /// # Errors
 ///
 /// A path that is a file, or a folder that cannot be made or written.
-pub fn ready_folder(path: &Path) -> Result<(), SceneError> {
+pub fn ready_folder(path: &Path) -> Result<(), IoError> {
     let refuse = |error: std::io::Error| {
         let message = format!("cannot be used as a folder for results: {error}; another is needed");
-        SceneError::file(path, message)
+        IoError::file(path, message)
     };
     std::fs::create_dir_all(path).map_err(refuse)?;
     beside(&path.join("result")).map_err(refuse)?;

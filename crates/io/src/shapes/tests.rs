@@ -20,11 +20,10 @@ fn a_contour_may_have_a_comment_a_heading_and_any_usual_separator() {
         "x;y\n1;2.5\n-3;4\n\n\n",
         "x y\n1 2.5\n-3 4",
     ] {
-        let contour = Contour::parse(text).unwrap_or_else(|e| unreachable!("{text:?}: {e}"));
-        let found = (contour.points, contour.closed);
-        assert_eq!(found, (expected.clone(), None), "{text:?}");
+        let contour = parse_one(text).unwrap_or_else(|e| unreachable!("{text:?}: {e}"));
+        assert_eq!(contour, Shape::curve(expected.clone(), None), "{text:?}");
     }
-    let open = Contour::parse("# contour 1, open\n1,2").unwrap();
+    let open = parse_one("# contour 1, open\n1,2").unwrap();
     assert_eq!(open.closed, Some(false));
 }
 
@@ -57,7 +56,7 @@ fn a_bad_line_is_named_and_not_shown() {
         ),
         ("root:x:0:0:root\n", "line 1: "),
     ] {
-        let error = Contour::parse(text).unwrap_err();
+        let error = parse_one(text).unwrap_err().to_string();
         assert!(error.starts_with(message), "{text:?}: {error}");
         for secret in ["apple", "root"] {
             assert!(!error.contains(secret), "{text:?}: {error}");
@@ -78,20 +77,54 @@ fn several_curves_are_never_joined_into_one() {
         "x,y\n0,0\n4,0\n4,4\n\nx,y\n10,10\n14,10\n14,14\n",
         "# contour 1\nx,y\n0,0\n4,0\n4,4\n# contour 1\nx,y\n10,10\n14,10\n14,14\n",
     ] {
-        let curves = Contour::parse_all(text).unwrap_or_else(|e| unreachable!("{text:?}: {e}"));
-        let points: Vec<_> = curves.iter().map(|curve| &curve.points[..]).collect();
+        let curves = parse(text).unwrap_or_else(|e| unreachable!("{text:?}: {e}"));
+        let points: Vec<_> = curves.iter().map(Shape::outer).collect();
         assert_eq!(points, [&square[..], &other[..]], "{text:?}");
-        let error = Contour::parse(text).unwrap_err();
+        let error = parse_one(text).unwrap_err().to_string();
         assert!(error.contains("holds 2 curves"), "{error}");
     }
 }
 
 #[test]
+fn rings_and_names_are_kept_and_names_that_a_table_cannot_hold_become_numbers() {
+    let ring = |at: f64| {
+        vec![
+            DVec2::splat(at),
+            DVec2::new(at + 1.0, at),
+            DVec2::new(at, at + 1.0),
+        ]
+    };
+    let shape = |id: &str, rings: Vec<Vec<DVec2>>| Shape {
+        id: Some(id.to_owned()),
+        closed: Some(true),
+        rings,
+        ..Shape::default()
+    };
+    let shapes = vec![
+        shape("cell-7", vec![ring(0.0), ring(0.25)]),
+        shape("cell-9", vec![ring(5.0)]),
+    ];
+    let text = to_text(&shapes);
+    assert!(
+        text.starts_with("# contour 1, closed\nx,y,curve,ring\n0,0,cell-7,0\n"),
+        "{text}"
+    );
+    assert_eq!(parse(&text).unwrap(), shapes);
+    for id in ["cell-7", "a,b", "a b", ""] {
+        let mut other = shapes.clone();
+        other[1].id = Some(id.to_owned());
+        let read = parse(&to_text(&other)).unwrap();
+        assert_eq!(read[1].id.as_deref(), Some("2"), "{id}");
+        assert_eq!(read[1].rings, shapes[1].rings, "{id}");
+    }
+}
+
+#[test]
 fn a_line_of_commas_is_refused_without_a_copy_of_it() {
-    let error = Contour::parse(&",".repeat(1 << 20)).unwrap_err();
+    let error = parse_one(&",".repeat(1 << 20)).unwrap_err().to_string();
     assert!(error.starts_with("line 1: more than two"), "{error}");
-    let error = Contour::parse(&format!("1,\u{1b}[31m\u{202e}{}", "x".repeat(100_000)));
-    let error = error.unwrap_err();
+    let error = parse_one(&format!("1,\u{1b}[31m\u{202e}{}", "x".repeat(100_000)));
+    let error = error.unwrap_err().to_string();
     assert!(error.len() < 200 && !error.contains('\u{1b}'), "{error}");
 }
 
@@ -102,8 +135,8 @@ proptest! {
         closed in prop::option::of(any::<bool>()),
     ) {
         let points = points.into_iter().map(|(x, y)| DVec2::new(x, y)).collect();
-        let contour = Contour { closed, points };
-        prop_assert_eq!(Contour::parse(&contour.to_text()).unwrap(), contour);
+        let contour = [Shape::curve(points, closed)];
+        prop_assert_eq!(parse(&to_text(&contour)).unwrap(), contour);
     }
 
     #[test]
@@ -113,12 +146,13 @@ proptest! {
             2..6,
         ),
     ) {
-        let curve = |(points, closed): (Vec<(f64, f64)>, bool)| Contour {
-            closed: Some(closed),
-            points: points.into_iter().map(|(x, y)| DVec2::new(x, y)).collect(),
+        let curve = |(i, (points, closed)): (usize, (Vec<(f64, f64)>, bool))| {
+            let points = points.into_iter().map(|(x, y)| DVec2::new(x, y)).collect();
+            let id = Some((i + 1).to_string());
+            Shape { id, ..Shape::curve(points, Some(closed)) }
         };
-        let curves: Vec<Contour> = curves.into_iter().map(curve).collect();
-        let read = Contour::parse_all(&Contour::all_to_text(&curves)).unwrap();
+        let curves: Shapes = curves.into_iter().enumerate().map(curve).collect();
+        let read = parse(&to_text(&curves)).unwrap();
         prop_assert_eq!(read, curves);
     }
 }

@@ -59,6 +59,8 @@ pub(super) struct Columns {
     pub curve: Option<usize>,
     /// Whether that curve is closed: 1 or 0.
     pub closed: Option<usize>,
+    /// Which ring of its curve a point belongs to.
+    pub ring: Option<usize>,
     /// How many there are.
     pub count: usize,
 }
@@ -70,6 +72,7 @@ impl Columns {
         y: 1,
         curve: None,
         closed: None,
+        ring: None,
         count: 2,
     };
 
@@ -102,6 +105,7 @@ impl Columns {
             y,
             curve: find(&CURVE),
             closed: find(&["closed"]),
+            ring: find(&["ring"]),
             count: words.len(),
         })
     }

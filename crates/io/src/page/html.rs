@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use image::{RgbImage, codecs::jpeg::JpegEncoder};
 
-use crate::{SceneError, paint};
+use crate::{IoError, paint};
 
 /// The longest side of a picture on the page, in pixels: as wide as it is shown.
 const LONGEST: u32 = 320;
@@ -44,7 +44,7 @@ impl Part {
         file: &str,
         caption: &str,
         image: &RgbImage,
-    ) -> Result<(), SceneError> {
+    ) -> Result<(), IoError> {
         let small = paint::shrunk(image, LONGEST);
         let (png, jpeg) = (paint::png(&small)?, jpeg(&small)?);
         let (kind, bytes) = if png.len() <= jpeg.len() {
@@ -62,11 +62,14 @@ impl Part {
     }
 }
 
-fn jpeg(image: &RgbImage) -> Result<Vec<u8>, SceneError> {
+fn jpeg(image: &RgbImage) -> Result<Vec<u8>, IoError> {
     let mut bytes = Vec::new();
     JpegEncoder::new_with_quality(&mut bytes, QUALITY)
         .encode_image(image)
-        .map_err(|error| SceneError::key("JPEG", error))?;
+        .map_err(|error| IoError::Format {
+            format: "JPEG",
+            message: error.to_string(),
+        })?;
     Ok(bytes)
 }
 

@@ -375,7 +375,7 @@ fn limits_of_counts(counts: &[usize], values: f64) -> [f64; 4] {
 }
 
 /// From the 2nd to the 98th percentile, or where these are one, from the least to the largest; 0 for a constant.
-pub(crate) fn spread_of([least, low, high, largest]: [f64; 4]) -> f64 {
+pub(super) fn spread_of([least, low, high, largest]: [f64; 4]) -> f64 {
     // less than the rounding of colors to grey leaves
     if largest - least <= 1e-12 * least.abs().max(largest.abs()) {
         return 0.0;

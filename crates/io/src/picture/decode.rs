@@ -14,8 +14,8 @@ use super::pixels::{Pixels, luma};
 use super::source::{Found, after, check_size, cut};
 use super::tiff_file::{self, Grey};
 use super::{Invalid, Picture, jpeg, png, pnm};
-use crate::error::clip_to;
 use crate::limits::{MOST_PIXELS, MOST_STREAM, MOST_WHOLE};
+use crate::text::clip_to;
 
 /// What to say instead of every other kind of file.
 const WANTED: &str = "a PNG, JPEG, TIFF, PGM or PPM picture";

@@ -3,13 +3,14 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use crate::SceneError;
+use crate::IoError;
 
 /// What is read when a file is called `-`.
 const STANDARD_INPUT: &str = "standard input";
 
-/// The file's name for people.
-pub(crate) fn called(path: &Path) -> PathBuf {
+/// What a file is called in a message: standard input by its name.
+#[must_use]
+pub fn called(path: &Path) -> PathBuf {
     if path.as_os_str() == "-" {
         PathBuf::from(STANDARD_INPUT)
     } else {
@@ -17,10 +18,13 @@ pub(crate) fn called(path: &Path) -> PathBuf {
     }
 }
 
-/// The text of a file, or of standard input for `-`; `wanted` says what would do instead.
-pub(crate) fn text(path: &Path, wanted: &str, most: u64) -> Result<String, SceneError> {
-    let refuse =
-        |what: String| SceneError::file(&called(path), format!("{what}; {wanted} is needed"));
+/// The text of a file, or of standard input for `-`; `wanted` says what is needed.
+///
+/// # Errors
+///
+/// A file that cannot be read, that holds more than `most` bytes, or that is not text in UTF-8.
+pub fn read_text(path: &Path, wanted: &str, most: u64) -> Result<String, IoError> {
+    let refuse = |what: String| IoError::file(&called(path), format!("{what}; {wanted} is needed"));
     let broken = |error: std::io::Error| refuse(format!("cannot be read: {error}"));
     let mut bytes = Vec::new();
     let reader: Box<dyn Read> = if path.as_os_str() == "-" {

@@ -9,7 +9,7 @@ use image::{ImageFormat, Rgb, RgbImage};
 
 use crate::picture::as_u32;
 use crate::write::write_whole;
-use crate::{Picture, SceneError};
+use crate::{IoError, Picture};
 
 /// A grey level as a byte: rounded, clamped to 0 … 255.
 #[allow(
@@ -200,11 +200,14 @@ pub fn overlay(picture: &Picture, curves: &[(&[DVec2], bool, [u8; 3])]) -> RgbIm
 /// # Errors
 ///
 /// A picture too large for the format.
-pub fn png(image: &RgbImage) -> Result<Vec<u8>, SceneError> {
+pub fn png(image: &RgbImage) -> Result<Vec<u8>, IoError> {
     let mut bytes = Cursor::new(Vec::new());
     image
         .write_to(&mut bytes, ImageFormat::Png)
-        .map_err(|error| SceneError::key("PNG", error))?;
+        .map_err(|error| IoError::Format {
+            format: "PNG",
+            message: error.to_string(),
+        })?;
     Ok(bytes.into_inner())
 }
 
@@ -213,6 +216,6 @@ pub fn png(image: &RgbImage) -> Result<Vec<u8>, SceneError> {
 /// # Errors
 ///
 /// A folder that is not there or cannot be written.
-pub fn save_png(image: &RgbImage, path: &Path) -> Result<(), SceneError> {
+pub fn save_png(image: &RgbImage, path: &Path) -> Result<(), IoError> {
     write_whole(path, &png(image)?)
 }

@@ -1,4 +1,4 @@
-//! Pictures: read from files, or drawn from numbers.
+//! Pictures: read from files, or made of levels.
 //!
 //! Inside, a picture is grey *levels* from 0 (black) to 255 (white), whatever the file held: eight
 //! bits as they are, sixteen divided by 257 (with a sign or without), floats (0 … 1) times 255. So
@@ -10,9 +10,8 @@
 //! numbers.
 
 mod decode;
-mod drawn;
 mod jpeg;
-pub(crate) mod pixels;
+mod pixels;
 mod png;
 mod pnm;
 mod source;
@@ -26,7 +25,7 @@ use image::RgbImage;
 use ndarray::Array2;
 use pixels::Pixels;
 
-use crate::SceneError;
+use crate::IoError;
 use crate::limits::MOST_PIXELS;
 
 /// A picture: grey levels to compute with, and colours to look at.
@@ -59,15 +58,6 @@ pub enum Invalid {
     Mask,
 }
 
-/// The pictures that come with the program, by name.
-const SHIPPED: [(&str, &[u8]); 2] = [
-    ("apple", include_bytes!("../../pictures/apple.png")),
-    (
-        "disturbing-edge",
-        include_bytes!("../../pictures/disturbing_edge.pgm"),
-    ),
-];
-
 impl Picture {
     /// Read a picture file, or standard input for `-`: PNG, JPEG, TIFF, PGM/PPM; grey or colour; 8
     /// bit, 16 bit or float.
@@ -77,7 +67,7 @@ impl Picture {
     ///
     /// A file that cannot be opened, is empty or has been cut, is no picture of a known format, has
     /// no pixel, more than its bytes can hold or than there is memory for, or holds numbers that are not finite.
-    pub fn load(path: &Path) -> Result<Self, SceneError> {
+    pub fn load(path: &Path) -> Result<Self, IoError> {
         Self::load_with(path, Invalid::Refuse)
     }
 
@@ -86,25 +76,9 @@ impl Picture {
     /// # Errors
     ///
     /// As [`Picture::load`]; not one pixel that is a number.
-    pub fn load_with(path: &Path, invalid: Invalid) -> Result<Self, SceneError> {
+    pub fn load_with(path: &Path, invalid: Invalid) -> Result<Self, IoError> {
         decode::load(path, invalid)
-            .map_err(|message| SceneError::file(&crate::read::called(path), message))
-    }
-
-    /// A picture that comes with the program.
-    ///
-    /// # Errors
-    ///
-    /// A name that none has; the message has the nearest one.
-    pub fn shipped(name: &str) -> Result<Self, SceneError> {
-        let Some((_, bytes)) = SHIPPED.iter().find(|(known, _)| *known == name) else {
-            let known: Vec<&str> = SHIPPED.iter().map(|(known, _)| *known).collect();
-            let meant = crate::error::meant(name, known.iter().copied());
-            let (name, known) = (crate::error::clip(name), known.join(", "));
-            let message = format!("no shipped picture \"{name}\"{meant} (known: {known})");
-            return Err(SceneError::key("picture.shipped", message));
-        };
-        Self::decode(bytes).map_err(|message| SceneError::key("picture.shipped", message))
+            .map_err(|message| IoError::file(&crate::read::called(path), message))
     }
 
     /// A picture from the bytes of a file.
@@ -259,7 +233,8 @@ impl Picture {
     }
 
     /// Whether it is the same everywhere, in every channel, over the pixels that count.
-    pub(crate) fn is_constant(&self) -> bool {
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
         if self.valid.is_none() && (self.color || self.levels.get().is_none()) {
             return self.pixels.is_constant();
         }
@@ -273,7 +248,11 @@ impl Picture {
     }
 
     /// A grid of this picture's size with the word on which of its pixels count.
-    pub(crate) fn masked(&self, grid: &Grid) -> Result<MaskedImage, FieldError> {
+    ///
+    /// # Errors
+    ///
+    /// A grid of another size, or with values that are not finite.
+    pub fn masked(&self, grid: &Grid) -> Result<MaskedImage, FieldError> {
         match &self.valid {
             Some(valid) => MaskedImage::new(grid, valid),
             None => MaskedImage::whole(grid),
@@ -286,10 +265,7 @@ impl Picture {
     /// # Errors
     ///
     /// A smoothing too wide for tiles, a gain that will not do.
-    pub(crate) fn lazy_edge_force(
-        &self,
-        rule: &EdgeForce,
-    ) -> Result<Option<ForceField>, FieldError> {
+    pub fn lazy_edge_force(&self, rule: &EdgeForce) -> Result<Option<ForceField>, FieldError> {
         if self.valid.is_some() {
             return Ok(None);
         }
@@ -301,7 +277,8 @@ impl Picture {
     }
 
     /// The largest level there may be, either way.
-    pub(crate) fn largest_level(&self) -> f64 {
+    #[must_use]
+    pub fn largest_level(&self) -> f64 {
         let beside = || {
             self.levels()
                 .iter()
@@ -311,12 +288,14 @@ impl Picture {
     }
 
     /// Whether its pixels were found finite and within bounds when they were read.
-    pub(crate) const fn is_tame(&self) -> bool {
+    #[must_use]
+    pub const fn is_tame(&self) -> bool {
         !matches!(self.pixels, Pixels::Levels)
     }
 
     /// The least level, the 2nd and the 98th percentile, and the largest.
-    pub(crate) fn grey_limits(&self) -> [f64; 4] {
+    #[must_use]
+    pub fn grey_limits(&self) -> [f64; 4] {
         match (&self.valid, self.levels.get()) {
             (None, None) => self.pixels.limits().unwrap_or_default(),
             (None, Some(levels)) => pixels::limits_of(|| levels.iter().copied()),
@@ -327,9 +306,17 @@ impl Picture {
         }
     }
 
+    /// Spread of its levels: from the 2nd to the 98th percentile, or where these are one, from the least to the
+    /// largest. 0 for a constant.
+    #[must_use]
+    pub fn spread(&self) -> f64 {
+        pixels::spread_of(self.grey_limits())
+    }
+
     /// Spread of a grid of this picture's size: from the 2nd to the 98th percentile of what counts, or where
     /// these are one, from the least to the largest. 0 for a constant.
-    pub(crate) fn contrast(&self, grid: &Grid) -> f64 {
+    #[must_use]
+    pub fn contrast(&self, grid: &Grid) -> f64 {
         match &self.valid {
             None => pixels::spread(|| grid.iter().copied()),
             Some(valid) => pixels::spread(|| {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::SceneError;
+use crate::IoError;
 use crate::write::{followed, is_stream, ready_file};
 
 /// What a command reads and what it is to write, each file by its identity and not by its spelling: device and inode
@@ -11,10 +11,10 @@ use crate::write::{followed, is_stream, ready_file};
 /// ```
 /// use std::path::Path;
 ///
-/// let mut claims = scene::Claims::default();
+/// let mut claims = io::Claims::default();
 /// claims.reads(Path::new("photo.png"));
-/// let error = claims.writes("--overlay", Path::new("./photo.png")).unwrap_err();
-/// assert!(error.to_string().starts_with("--overlay: ./photo.png"));
+/// let error = claims.writes("the overlay", Path::new("./photo.png")).unwrap_err();
+/// assert!(error.to_string().starts_with("the overlay: ./photo.png"));
 /// ```
 #[derive(Debug, Default)]
 pub struct Claims {
@@ -50,11 +50,10 @@ impl Claims {
     ///
     /// # Errors
     ///
-    /// A file that is also read, or that another result is written to; whatever [`ready_file`] refuses. By the flag or
-    /// the path.
-    pub fn writes(&mut self, flag: &str, path: &Path) -> Result<(), SceneError> {
+    /// A file that is also read, or that another result is written to, by the name of the `result`; whatever
+    /// [`ready_file`] refuses.
+    pub fn writes(&mut self, result: &str, path: &Path) -> Result<(), IoError> {
         let standard = is_standard(path);
-        let shown = path.display();
         let real = if standard {
             Path::new("/dev/stdout")
         } else {
@@ -64,21 +63,26 @@ impl Claims {
         if let Some(found) = &found
             && self.read.contains(found)
         {
-            let message = format!("{shown} is a file that is read; the result must be another");
-            return Err(SceneError::key(flag, message));
+            return Err(IoError::IsRead {
+                result: result.to_owned(),
+                path: path.to_owned(),
+            });
         }
         let same = |known: &Place| {
             let twice = standard && *known == Place::Standard;
             twice || found.as_ref() == Some(known)
         };
         if let Some((other, _)) = self.written.iter().find(|(_, known)| same(known)) {
-            let message = format!("{shown} is taken by {other}; each result needs its own file");
-            return Err(SceneError::key(flag, message));
+            return Err(IoError::Taken {
+                result: result.to_owned(),
+                path: path.to_owned(),
+                other: other.clone(),
+            });
         }
         self.written
-            .extend(found.map(|found| (flag.to_owned(), found)));
+            .extend(found.map(|found| (result.to_owned(), found)));
         if standard {
-            self.written.push((flag.to_owned(), Place::Standard));
+            self.written.push((result.to_owned(), Place::Standard));
             return Ok(());
         }
         ready_file(path)
