@@ -10,7 +10,7 @@ use io::{Claims, Picture, shapes};
 use scene::field::{Polarity, Smoothing};
 use scene::integrator::Scheme;
 use scene::snake::{Certificate, Outcome};
-use scene::{Computing, Fields, ForceChoice, Record, Scene, SceneError};
+use scene::{Computing, Fields, ForceChoice, Record, Scene, SceneError, SceneText};
 
 use crate::args;
 use crate::output::{Output, put, say};
@@ -18,7 +18,7 @@ use crate::output::{Output, put, say};
 type Answer = Result<ExitCode, SceneError>;
 
 pub(crate) fn run(args: &args::Run) -> Answer {
-    let mut scene = find(&args.scene)?;
+    let mut scene = find(&args.scene, &args.changes)?.scene()?;
     let plan = &mut scene.plan;
     if let Some(name) = &args.scheme {
         plan.scheme = name.parse::<Scheme>().map_err(|e| key("--scheme", e))?;
@@ -181,7 +181,7 @@ fn choices(flag: &str, typed: &[String]) -> Result<Vec<ForceChoice>, SceneError>
 }
 
 pub(crate) fn list(args: &args::List) -> Answer {
-    let mut text = String::new();
+    let (mut text, mut after) = (String::new(), None);
     match args.what {
         args::What::Scenes => {
             for (name, _) in scene::SCENES {
@@ -189,6 +189,7 @@ pub(crate) fn list(args: &args::List) -> Answer {
                 let report = report.map_or_else(String::new, |r| format!(" ({r})"));
                 let _ = writeln!(text, "{name:26} {title}{report}");
             }
+            after = Some("snake show NAME prints the text of one");
         }
         args::What::Schemes => {
             for scheme in Scheme::ALL {
@@ -203,6 +204,7 @@ pub(crate) fn list(args: &args::List) -> Answer {
         }
     }
     put(&text)?;
+    after.into_iter().for_each(say);
     Ok(ExitCode::SUCCESS)
 }
 
@@ -216,15 +218,29 @@ fn two_inputs(image: &Path, from: Option<&Path>) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// A shipped scene by its name, or a scene file by its path, or standard input.
-fn find(path: &Path) -> Result<Scene, SceneError> {
+/// The text of a shipped scene by its name, of a scene file by its path, or of standard input; with these changes.
+fn find(path: &Path, changes: &args::Changes) -> Result<SceneText, SceneError> {
     let name = path.to_str();
     let shipped = scene::SCENES.iter().any(|(known, _)| Some(*known) == name);
     let file = path.extension().is_some() || path.components().count() > 1 || path.exists();
-    match name {
-        Some(name) if name != "-" && (shipped || !file) => Scene::named(name),
-        _ => Scene::load(path),
+    let mut text = match name {
+        Some(name) if name != "-" && (shipped || !file) => SceneText::named(name),
+        _ => SceneText::load(path),
+    }?;
+    for change in &changes.set {
+        text.set(&change.key, &change.value)?;
     }
+    Ok(text)
+}
+
+pub(crate) fn show(args: &args::Show) -> Answer {
+    let text = find(&args.scene, &args.changes)?;
+    // what nothing is changed in is shown with its comments
+    match args.changes.set[..] {
+        [] => put(text.source())?,
+        _ => put(&text.to_string())?,
+    }
+    Ok(ExitCode::SUCCESS)
 }
 
 /// A key of the scene, the flag that stands for it, and whether it was given.

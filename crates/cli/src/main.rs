@@ -21,6 +21,7 @@ fn main() -> ExitCode {
         args::Command::Run(run) => commands::run(&run),
         args::Command::Field(field) => commands::field(&field),
         args::Command::Fit(fit) => commands::fit(&fit),
+        args::Command::Show(show) => commands::show(&show),
         args::Command::List(list) => commands::list(&list),
     };
     match outcome {

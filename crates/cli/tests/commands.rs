@@ -19,7 +19,8 @@ fn list_names_every_shipped_scene_on_a_line_of_its_own() {
     let folder = Folder::new();
     for args in [&["list"][..], &["list", "scenes"]] {
         let answer = folder.snake(args);
-        assert_eq!((answer.code, answer.err.as_str()), (Some(0), ""));
+        let hint = "snake show NAME prints the text of one\n";
+        assert_eq!((answer.code, answer.err.as_str()), (Some(0), hint));
         let names: Vec<&str> = answer
             .out
             .lines()

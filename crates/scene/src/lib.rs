@@ -33,6 +33,7 @@ mod limits;
 mod record;
 mod scene;
 mod substeps;
+mod text;
 mod toml_error;
 
 pub use build::Computing;
@@ -46,6 +47,7 @@ pub use hand::Hand;
 pub use kinds::{FORCES, ForceChoice, ForceKind};
 pub use record::{Frame, Record};
 pub use scene::{Plan, Recording, Scene, View};
+pub use text::SceneText;
 
 pub use elastic;
 pub use field;

@@ -1,5 +1,7 @@
 //! TOML's own messages, turned into one line that names the place and what would do.
 
+use serde::Deserialize as _;
+
 use crate::SceneError;
 use crate::error::{clip, meant};
 use crate::file::SceneText;
@@ -8,6 +10,11 @@ use crate::limits::MOST_VALUES;
 /// Read the text of a scene.
 pub(crate) fn parse(text: &str) -> Result<SceneText, SceneError> {
     read(text)
+}
+
+/// The text of a scene from the table that it is in TOML.
+pub(crate) fn from_table(table: toml::Table) -> Result<SceneText, String> {
+    SceneText::deserialize(toml::Value::Table(table)).map_err(|error| helpful(error.message()))
 }
 
 /// Read a text of any shape.

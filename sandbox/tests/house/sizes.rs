@@ -59,7 +59,7 @@ const EXPORTS_TODAY: [(&str, usize); 8] = [
     ("field", 78),
     ("integrator", 25),
     ("outline", 38),
-    ("scene", 26),
+    ("scene", 27),
     ("snake", 55),
     ("sandbox", 47),
 ];

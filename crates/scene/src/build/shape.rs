@@ -5,7 +5,9 @@ use glam::DVec2;
 
 use super::files::Files;
 use super::{Rules, number, points};
-use crate::file::{EndText, EndWord, OpenClosed, Rule, SceneText, ShapeText, TopologyText};
+use crate::file::{
+    EndText, EndWord, NodesText, OpenClosed, Rule, SceneText, ShapeText, TopologyText,
+};
 use crate::limits::MOST_NODES;
 use crate::{SceneError, catalogue};
 
@@ -44,53 +46,116 @@ pub(super) fn nodes(
     rules: Rules,
     files: &Files<'_>,
 ) -> Result<Vec<DVec2>, SceneError> {
-    let closed = topology(&text.snake.topology, rules).is_closed();
-    let parameter = match rules.spline {
-        Rule::Report => Parameter::PointIndex,
-        Rule::Corrected => Parameter::ArcLength,
+    let topology = topology(&text.snake.topology, rules);
+    let maker = Maker {
+        closed: topology.is_closed(),
+        parameter: match rules.spline {
+            Rule::Report => Parameter::PointIndex,
+            Rule::Corrected => Parameter::ArcLength,
+        },
+        files,
     };
-    let count = || match text.snake.nodes {
+    maker.nodes(shape, key, &|_| match text.snake.nodes {
         None => Err(SceneError::key(
-            "snake.nodes",
+            NODES,
             "is missing; the number of nodes would do",
         )),
-        Some(n) => few_enough("snake.nodes", n),
-    };
-    let through = |key: &str, clicks: &[DVec2]| {
-        number::places(key, clicks)?;
-        few_enough(key, clicks.len())?;
-        elastic::spline(clicks, count()?, parameter, closed).map_err(|e| refused(key, &e))
-    };
-    let at = |name: &str| format!("{key}.{name}");
-    match shape {
-        ShapeText::Circle(c) => Ok(elastic::circle(
-            number::place(&at("circle.center"), c.center)?,
-            number::length(&at("circle.radius"), c.radius)?,
-            count()?,
-        )),
-        ShapeText::Ellipse(e) => Ok(elastic::ellipse(
-            number::place(&at("ellipse.center"), e.center)?,
-            DVec2::new(
-                number::length(&at("ellipse.axes"), e.axes[0])?,
-                number::length(&at("ellipse.axes"), e.axes[1])?,
-            ),
-            number::finite(&at("ellipse.angle"), e.angle)?,
-            count()?,
-        )),
-        ShapeText::Segment(s) => Ok(elastic::segment(
-            number::place(&at("segment.from"), s.from)?,
-            number::place(&at("segment.to"), s.to)?,
-            count()?,
-        )),
-        ShapeText::Points(list) => through(&at("points"), &points(list)),
-        ShapeText::Nodes(list) => {
-            few_enough(&at("nodes"), list.len())?;
-            let nodes = points(list);
-            number::places(&at("nodes"), &nodes)?;
-            Ok(nodes)
+        Some(NodesText::Count(n)) => few_enough(NODES, n),
+        Some(NodesText::Apart(distance)) => {
+            number::length(NODES, distance)?;
+            let start = maker.nodes(&text.snake.start, "snake.start", &finely)?;
+            spaced(distance, elastic::length(&start, maker.closed), topology)
         }
-        ShapeText::File(file) => through(&at("file"), files.contour(file)?.outer()),
-        ShapeText::Shipped(name) => through(&at("shipped"), catalogue::contour(name)?.outer()),
+    })
+}
+
+const NODES: &str = "snake.nodes";
+
+/// Nodes by which a curve through so many points is measured.
+fn finely(points: usize) -> Result<usize, SceneError> {
+    Ok(points.saturating_mul(4).clamp(4096, MOST_NODES))
+}
+
+/// How many nodes lie this far apart on a curve of that length.
+fn spaced(distance: f64, along: f64, topology: Topology) -> Result<usize, SceneError> {
+    let gaps = (along / distance).round();
+    let refuse = |bound: String, got: f64| {
+        let message = format!(
+            "\"{distance} px\" on a curve {along:.2} pixels long: must be {bound} nodes, got {got}"
+        );
+        Err(SceneError::key(NODES, message))
+    };
+    // an open curve has a node at either end
+    let ends = if topology.is_closed() { 0.0 } else { 1.0 };
+    let (count, least) = (gaps + ends, topology.least_nodes());
+    if count < least as f64 {
+        return refuse(format!("at least {least}"), count);
+    }
+    if count > MOST_NODES as f64 || count.is_nan() {
+        return refuse(format!("at most {MOST_NODES}"), count);
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a whole number within bounds that were checked"
+    )]
+    Ok(count as usize)
+}
+
+/// How many nodes a curve through so many points is to have.
+type Count<'a> = &'a dyn Fn(usize) -> Result<usize, SceneError>;
+
+/// What turns shapes into nodes.
+struct Maker<'a> {
+    closed: bool,
+    parameter: Parameter,
+    files: &'a Files<'a>,
+}
+
+impl Maker<'_> {
+    fn nodes(
+        &self,
+        shape: &ShapeText,
+        key: &str,
+        count: Count<'_>,
+    ) -> Result<Vec<DVec2>, SceneError> {
+        let at = |name: &str| format!("{key}.{name}");
+        let through = |key: &str, clicks: &[DVec2]| {
+            number::places(key, clicks)?;
+            few_enough(key, clicks.len())?;
+            let n = count(clicks.len())?;
+            elastic::spline(clicks, n, self.parameter, self.closed).map_err(|e| refused(key, &e))
+        };
+        match shape {
+            ShapeText::Circle(c) => Ok(elastic::circle(
+                number::place(&at("circle.center"), c.center)?,
+                number::length(&at("circle.radius"), c.radius)?,
+                count(0)?,
+            )),
+            ShapeText::Ellipse(e) => Ok(elastic::ellipse(
+                number::place(&at("ellipse.center"), e.center)?,
+                DVec2::new(
+                    number::length(&at("ellipse.axes"), e.axes[0])?,
+                    number::length(&at("ellipse.axes"), e.axes[1])?,
+                ),
+                number::finite(&at("ellipse.angle"), e.angle)?,
+                count(0)?,
+            )),
+            ShapeText::Segment(s) => Ok(elastic::segment(
+                number::place(&at("segment.from"), s.from)?,
+                number::place(&at("segment.to"), s.to)?,
+                count(0)?,
+            )),
+            ShapeText::Points(list) => through(&at("points"), &points(list)),
+            ShapeText::Nodes(list) => {
+                few_enough(&at("nodes"), list.len())?;
+                let nodes = points(list);
+                number::places(&at("nodes"), &nodes)?;
+                Ok(nodes)
+            }
+            ShapeText::File(file) => through(&at("file"), self.files.contour(file)?.outer()),
+            ShapeText::Shipped(name) => through(&at("shipped"), catalogue::contour(name)?.outer()),
+        }
     }
 }
 
