@@ -2,7 +2,8 @@
 //!
 //! This is the lowest crate that reads and writes: bytes become a [`Picture`], [`Shapes`](shapes::Shapes) or a
 //! [`Record`](record::Record), and these become bytes. A file is written whole or not at all, and what cannot be read is refused by its
-//! name, its line, and what is needed instead. Nothing here knows what a scene, a snake or a force is.
+//! name, its line, and what is needed instead. Nothing here knows what a scene or a
+//! snake is.
 //!
 //! ```
 //! use io::shapes;

@@ -24,10 +24,7 @@ pub enum SceneError {
         message: String,
     },
     /// No shipped scene has this name.
-    #[error(
-        "no shipped scene is called \"{}\"{nearest} (`snake list` shows all; a file needs its ending or a folder)",
-        clip(name)
-    )]
+    #[error("no shipped scene is called \"{}\"{nearest}", clip(name))]
     UnknownScene {
         /// The name given.
         name: String,

@@ -16,7 +16,7 @@ use crate::{SceneError, build, catalogue, file, toml_error};
 /// ```
 /// let mut text = scene::SceneText::named("soft-ball")?;
 /// text.set("material.tension", "30")?;
-/// text.set("run.dt", "auto")?;
+/// text.set("run.scheme", "newmark")?;
 /// assert!(text.to_string().contains("tension = 30"));
 /// let again = scene::SceneText::parse("soft-ball", &text.to_string(), std::path::Path::new("."))?;
 /// assert!(again == text && again.scene().is_ok());
@@ -315,10 +315,14 @@ fn is_list(key: &str, value: &Value) -> bool {
     LISTS.contains(&key) && entries.is_some_and(|entries| !entries.is_empty())
 }
 
-/// A table under its heading, with lists of tables after it.
+/// Letters that a table may take within a line.
+const INLINE: usize = 90;
+
+/// A table under its heading, with lists of tables and long tables after it.
 fn section(out: &mut String, heading: &str, table: &Table) -> fmt::Result {
-    let lists = |(key, value): &(&String, &Value)| is_list(key, value);
-    let (below, own): (Vec<_>, Vec<_>) = ordered(table).into_iter().partition(lists);
+    let long = |value: &Value| value.is_table() && value.to_string().len() > INLINE;
+    let own_heading = |(key, value): &(&String, &Value)| is_list(key, value) || long(value);
+    let (below, own): (Vec<_>, Vec<_>) = ordered(table).into_iter().partition(own_heading);
     if !own.is_empty() || below.is_empty() || heading.starts_with("[[") {
         writeln!(out, "\n{heading}")?;
     }
@@ -327,7 +331,11 @@ fn section(out: &mut String, heading: &str, table: &Table) -> fmt::Result {
     }
     let name = heading.trim_matches(['[', ']']);
     for (key, value) in below {
-        list(out, &format!("{name}.{key}"), value)?;
+        let name = format!("{name}.{key}");
+        match value {
+            Value::Table(table) => section(out, &format!("[{name}]"), table)?,
+            value => list(out, &name, value)?,
+        }
     }
     Ok(())
 }

@@ -63,6 +63,16 @@ fn helpful(message: &str) -> String {
     {
         return format!("{entry}: {}", helpful(rest));
     }
+    if message.starts_with("wanted exactly 1 element") {
+        return "must have exactly one key, the word for what it is".to_owned();
+    }
+    if message == "invalid type: unit variant, expected newtype variant" {
+        return "is a word that needs a value, as { word = value }".to_owned();
+    }
+    // serde names the type of this program
+    if let Some((given, _)) = message.split_once(", expected struct ") {
+        return format!("{}, expected a table", clip(given));
+    }
     let mut quoted = message.split('`').skip(1).step_by(2);
     let unknown = message.starts_with("unknown field") || message.starts_with("unknown variant");
     match (unknown, quoted.next()) {

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use io::{Picture, shapes};
-use scene::{Fit, Scene, field};
+use scene::{Fit, Scene, SceneText, field};
 
 /// A refusal says something, in few words.
 fn is_short(said: &str, most: usize) {
@@ -52,6 +52,15 @@ pub fn scene_text(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else {
         return;
     };
+    // what is read is written so that it is read again the same
+    if let Ok(read) = SceneText::parse("fuzz", text, Path::new("/nowhere")) {
+        let written = read.to_string();
+        let again = SceneText::parse("fuzz", &written, Path::new("/nowhere"));
+        assert!(
+            again.is_ok_and(|again| again.to_string() == written),
+            "{written}"
+        );
+    }
     // files that a scene names are not looked for
     match Scene::parse("fuzz", text, Path::new("/nowhere")) {
         Ok(mut scene) => {
