@@ -85,7 +85,8 @@ pub(crate) struct Show {
 /// Changes of a scene's text.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Changes {
-    /// Give a key of the scene another value, as `material.tension=30` or `force.edge.strength=2`; may be given again.
+    /// Give a key of the scene another value, as `material.tension=30` or `force.edge.strength=2`;
+    /// may be given again.
     #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
     pub set: Vec<Change>,
 }

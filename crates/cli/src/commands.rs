@@ -218,7 +218,8 @@ fn two_inputs(image: &Path, from: Option<&Path>) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// The text of a shipped scene by its name, of a scene file by its path, or of standard input; with these changes.
+/// The text of a shipped scene by its name, of a scene file by its path, or of standard input; with
+/// these changes.
 fn find(path: &Path, changes: &args::Changes) -> Result<SceneText, SceneError> {
     let name = path.to_str();
     let shipped = scene::SCENES.iter().any(|(known, _)| Some(*known) == name);

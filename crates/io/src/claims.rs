@@ -50,8 +50,8 @@ impl Claims {
     ///
     /// # Errors
     ///
-    /// A file that is also read, or that another result is written to, by the name of the `result`; whatever
-    /// [`ready_file`] refuses.
+    /// A file that is also read, or that another result is written to, by the name of the `result`;
+    /// whatever [`ready_file`] refuses.
     pub fn writes(&mut self, result: &str, path: &Path) -> Result<(), IoError> {
         let standard = is_standard(path);
         let real = if standard {

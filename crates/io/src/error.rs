@@ -1,5 +1,5 @@
-//! What can be wrong with a file. Every message names the file, the line where there is one, what was found and what
-//! is needed.
+//! What can be wrong with a file. Every message names the file, the line where there is one, what
+//! was found and what is needed.
 
 use std::path::{Path, PathBuf};
 

@@ -1,9 +1,9 @@
 //! Pictures, outlines, records and tables as files.
 //!
-//! This is the lowest crate that reads and writes: bytes become a [`Picture`], [`Shapes`](shapes::Shapes) or a
-//! [`Record`](record::Record), and these become bytes. A file is written whole or not at all, and what cannot be read is refused by its
-//! name, its line, and what is needed instead. Nothing here knows what a scene or a
-//! snake is.
+//! This is the lowest crate that reads and writes: bytes become a [`Picture`],
+//! [`Shapes`](shapes::Shapes) or a [`Record`](record::Record), and these become bytes. A file is
+//! written whole or not at all, and what cannot be read is refused by its name, its line, and what
+//! is needed instead. Nothing here knows what a scene or a snake is.
 //!
 //! ```
 //! use io::shapes;

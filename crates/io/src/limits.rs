@@ -14,8 +14,8 @@ pub const FARTHEST: f64 = 1e9;
 /// Pixels a picture of 8 or 16 bits may have, 23170 × 23170: kept as they came, 1 to 3 bytes each.
 pub const MOST_PIXELS: u64 = 1 << 29;
 
-/// Pixels a picture may have to be worked on as a whole, or with floats or deep colors, 11585 × 11585: all stages of a force
-/// together hold about a hundred bytes a pixel, so some 13 GB.
+/// Pixels a picture may have to be worked on as a whole, or with floats or deep colors, 11585 ×
+/// 11585: all stages of a force together hold about a hundred bytes a pixel, so some 13 GB.
 pub const MOST_WHOLE: u64 = 1 << 27;
 
 /// Bytes of a picture that comes through a pipe and is read in any order.
@@ -24,7 +24,8 @@ pub(crate) const MOST_STREAM: u64 = 1 << 30;
 /// Bytes of a contour file, enough for the most points at 17 digits with columns to spare.
 pub(crate) const MOST_CONTOUR_BYTES: u64 = 256 << 20;
 
-/// Refuse what there is no memory for, before any is filled: so many bytes are asked for and given back.
+/// Refuse what there is no memory for, before any is filled: so many bytes are asked for and given
+/// back.
 ///
 /// # Errors
 ///

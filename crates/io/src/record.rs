@@ -230,8 +230,8 @@ impl Record<'_> {
         Ok(text)
     }
 
-    /// The record as CSV: one line a node and kept moment, energies (and their sum, `total`) repeated
-    /// on each of its lines.
+    /// The record as CSV: one line a node and kept moment, energies (and their sum, `total`)
+    /// repeated on each of its lines.
     #[must_use]
     pub fn to_csv(&self) -> String {
         let mut frames = self.frames.iter();

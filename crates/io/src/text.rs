@@ -25,8 +25,8 @@ pub fn plain(text: &str) -> String {
         .collect()
 }
 
-/// Letters without a shape that change how those around them are shown: directions, separators of lines, marks of a
-/// beginning.
+/// Letters without a shape that change how those around them are shown: directions, separators of
+/// lines, marks of a beginning.
 const fn is_directing(c: char) -> bool {
     matches!(
         c,

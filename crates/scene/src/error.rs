@@ -1,4 +1,5 @@
-//! What can be wrong with a scene. Every message names the key or the file, what was given, and what would do.
+//! What can be wrong with a scene. Every message names the key or the file, what was given, and
+//! what would do.
 
 use io::IoError;
 pub(crate) use io::text::clip;

@@ -1,4 +1,5 @@
-//! What `snake field` writes: every stage from a picture to its force, and every kind of force field.
+//! What `snake field` writes: every stage from a picture to its force, and every kind of force
+//! field.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -69,13 +70,14 @@ impl Fields {
         self.kinds.iter().map(name).collect()
     }
 
-    /// Write everything into `folder`: pictures (`NAME.png`), numbers (`NAME.npy`, `NAME.tiff`), and a page with
-    /// all pictures side by side (`index.html`). Each file is written whole or not at all; returns the files.
+    /// Write everything into `folder`: pictures (`NAME.png`), numbers (`NAME.npy`, `NAME.tiff`),
+    /// and a page with all pictures side by side (`index.html`). Each file is written whole or not
+    /// at all; returns the files.
     ///
     /// # Errors
     ///
-    /// A folder that cannot be made or written (found out first); a smoothing, a kind or a curve that is refused, under
-    /// the key `field.passes`, `field.sigma`, `field.kind` or `field.curve`.
+    /// A folder that cannot be made or written (found out first); a smoothing, a kind or a curve
+    /// that is refused, under the key `field.passes`, `field.sigma`, `field.kind` or `field.curve`.
     pub fn write(&self, picture: &Picture, folder: &Path) -> Result<Vec<PathBuf>, SceneError> {
         let key = match self.smoothing {
             Smoothing::Binomial(_) => "field.passes",

@@ -1,9 +1,10 @@
 //! Situations as text, and what the text means.
 //!
-//! A scene is a
-//! TOML text that names a picture, a curve, a material, a world and a plan; [`Scene::parse`] turns
-//! it into a snake ready to run and refuses what makes no sense, by its key. Files are read and written by [`io`]. The shipped scenes are
-//! [`SCENES`]; `docs/formats.md` describes the formats by example.
+//! A scene is a TOML text that names a picture, a curve, a material, a world and a plan;
+//! [`Scene::parse`] turns it into a snake ready to run and refuses what makes no sense, by its key.
+//! As a value the text is a [`SceneText`], which is changed key by key and written again. Files are
+//! read and written by [`io`]. The shipped scenes are [`SCENES`]; `docs/formats.md` describes the
+//! formats by example.
 //!
 //! ```
 //! use scene::Scene;

@@ -1,5 +1,5 @@
-//! How much a scene may ask for, in one place, each with its reason; what a file may ask for stands in
-//! [`io::limits`].
+//! How much a scene may ask for, in one place, each with its reason; what a file may ask for stands
+//! in [`io::limits`].
 //!
 //! A program that is handed a text by a stranger must not be talked into hours or gigabytes. Every
 //! bound is far above what the work needs, and the message of a refusal says what it is.

@@ -74,8 +74,8 @@ impl SceneText {
     ///
     /// # Errors
     ///
-    /// Text that is no TOML, an unknown key (with the nearest known one), a missing key, a value of another type; by
-    /// its line.
+    /// Text that is no TOML, an unknown key (with the nearest known one), a missing key, a value of
+    /// another type; by its line.
     pub fn parse(name: &str, text: &str, folder: &Path) -> Result<Self, SceneError> {
         Ok(Self {
             name: name.to_owned(),
@@ -109,9 +109,10 @@ impl SceneText {
 
     /// Give a key another value, or one that it had not.
     ///
-    /// A key is written with its tables, `material.tension`; an entry of a list by its number from 0, `also.0.nodes`,
-    /// and of `[[force]]` also by its name or its kind, `force.edge.strength`. The number after the last begins a new
-    /// entry. The value is one of TOML; a word needs no quotes.
+    /// A key is written with its tables, `material.tension`; an entry of a list by its number from
+    /// 0, `also.0.nodes`, and of `[[force]]` also by its name or its kind, `force.edge.strength`.
+    /// The number after the last begins a new entry. The value is one of TOML; a word needs no
+    /// quotes.
     ///
     /// # Errors
     ///

@@ -229,7 +229,8 @@ impl<'a> Sheet<'a> {
         self.keep(&format!("{name}.tiff"), &float_tiff(&[&x, &y])?)
     }
 
-    /// What a region would do with each pixel, for this closed curve: as a picture with the curve, and as numbers.
+    /// What a region would do with each pixel, for this closed curve: as a picture with the curve,
+    /// and as numbers.
     ///
     /// # Errors
     ///
@@ -267,7 +268,8 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// The force as arrows over the picture, one every few pixels, the longest as long as their distance.
+/// The force as arrows over the picture, one every few pixels, the longest as long as their
+/// distance.
 fn arrows(picture: &Picture, force: &ForceField) -> RgbImage {
     let (width, height) = picture.size();
     let pitch = (width.max(height) / 40).max(4);

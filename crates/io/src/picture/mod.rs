@@ -306,8 +306,8 @@ impl Picture {
         }
     }
 
-    /// Spread of its levels: from the 2nd to the 98th percentile, or where these are one, from the least to the
-    /// largest. 0 for a constant.
+    /// Spread of its levels: from the 2nd to the 98th percentile, or where these are one, from the
+    /// least to the largest. 0 for a constant.
     #[must_use]
     pub fn spread(&self) -> f64 {
         pixels::spread_of(self.grey_limits())

@@ -1,5 +1,5 @@
-//! Outlines as files: several in one file, each of one or more rings, with a name and whatever else a program notes
-//! beside it.
+//! Outlines as files: several in one file, each of one or more rings, with a name and whatever else
+//! a program notes beside it.
 //!
 //! The one format so far is a table: a line `x,y` for each point.
 //!
@@ -9,9 +9,10 @@
 //! 12.5,40
 //! ```
 //!
-//! The comment and the heading may be left out; a heading names the columns, x and y among them in any place;
-//! separators may be commas, semicolons, tabs or spaces. Several outlines have a column `curve`, or blank lines between
-//! them; several rings of one outline have a column `ring`. Labels and properties are not kept in a table.
+//! The comment and the heading may be left out; a heading names the columns, x and y among them in
+//! any place; separators may be commas, semicolons, tabs or spaces. Several outlines have a column
+//! `curve`, or blank lines between them; several rings of one outline have a column `ring`. Labels
+//! and properties are not kept in a table.
 
 mod heading;
 mod line;
@@ -101,13 +102,13 @@ pub fn load_one(path: &Path) -> Result<Shape, IoError> {
     parse_one(&text).map_err(|error| error.within(&called(path)))
 }
 
-/// Read the outlines of a text: told apart by a column `curve` (or `id`, `label`, …) whose values repeat, by blank
-/// lines or by headings between them.
+/// Read the outlines of a text: told apart by a column `curve` (or `id`, `label`, …) whose values
+/// repeat, by blank lines or by headings between them.
 ///
 /// # Errors
 ///
-/// A message that names the line, and shows nothing of it: no two finite numbers, more entries than the heading has
-/// names, a heading without x or y.
+/// A message that names the line, and shows nothing of it: no two finite numbers, more entries than
+/// the heading has names, a heading without x or y.
 pub fn parse(text: &str) -> Result<Shapes, IoError> {
     table::parse(text)
 }
@@ -128,9 +129,10 @@ pub fn parse_one(text: &str) -> Result<Shape, IoError> {
     }
 }
 
-/// Outlines as text, which [`parse`] reads back exactly, but for labels and properties. Of more than one, a column
-/// `curve` has the name of each, or where some have none, its number from 1 on; where not all are closed or open, a
-/// column `closed` has 1 or 0; where one has several rings, a column `ring` has their numbers from 0 on.
+/// Outlines as text, which [`parse`] reads back exactly, but for labels and properties. Of more
+/// than one, a column `curve` has the name of each, or where some have none, its number from 1 on;
+/// where not all are closed or open, a column `closed` has 1 or 0; where one has several rings, a
+/// column `ring` has their numbers from 0 on.
 #[must_use]
 pub fn to_text(shapes: &[Shape]) -> String {
     table::to_text(shapes)

@@ -60,7 +60,8 @@ pub(super) fn to_text(shapes: &[Shape]) -> String {
     text
 }
 
-/// What tells the shapes apart: their names, if each has one of its own that a table can hold, else their numbers.
+/// What tells the shapes apart: their names, if each has one of its own that a table can hold, else
+/// their numbers.
 fn names(shapes: &[Shape]) -> Vec<String> {
     let plain = |name: &&str| {
         let letter = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.');

@@ -1,5 +1,5 @@
-//! The text of a scene, exactly as written: the types that serde fills and writes. What is not given, or given as what
-//! stands for it anyway, is not written.
+//! The text of a scene, exactly as written: the types that serde fills and writes. What is not
+//! given, or given as what stands for it anyway, is not written.
 //!
 //! Every key that may be left out is an `Option` or has its default here; what the values mean is
 //! decided in `build`. `docs/formats.md` explains the format by example.
