@@ -87,7 +87,7 @@ pub(crate) struct Show {
 pub(crate) struct Changes {
     /// Give a key of the scene another value, as `material.tension=30` or `force.edge.strength=2`;
     /// may be given again.
-    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
+    #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<Change>,
 }
 

@@ -146,7 +146,7 @@ pub(crate) fn field(args: &args::Field) -> Answer {
     claims.reads(&args.image);
     args.from.iter().for_each(|path| claims.reads(path));
     let curve = args.from.as_deref().map(shapes::load_one).transpose()?;
-    let curve = curve.map(|contour| contour.outer().to_vec());
+    let curve = curve.map(|contour| contour.first().to_vec());
     let fields = Fields {
         stages: args.all || args.kind.is_empty(),
         smoothing,

@@ -131,7 +131,7 @@ impl Output {
                 let found = found.iter().map(|curve| (curve, FOUND));
                 let drawn = start.chain(found);
                 let curves: Vec<_> = drawn
-                    .map(|(curve, color)| (curve.outer(), curve.closed == Some(true), color))
+                    .map(|(curve, color)| (curve.first(), curve.closed == Some(true), color))
                     .collect();
                 paint::save_png(&paint::overlay(picture, &curves), path)?;
             }

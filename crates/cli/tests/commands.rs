@@ -131,7 +131,7 @@ fn a_scene_comes_from_standard_input_or_any_file() {
     let answer = folder.snake_reading(&["run", "-", "--out", "-"], scene(&[]));
     assert_eq!(answer.code, Some(0), "{answer:?}");
     let contour = shapes::parse_one(&answer.out).unwrap();
-    assert_eq!((contour.closed, contour.outer().len()), (Some(true), 20));
+    assert_eq!((contour.closed, contour.first().len()), (Some(true), 20));
     folder.write("without-an-ending", scene(&[]));
     let again = folder.snake(&["run", "without-an-ending", "--out", "-"]);
     assert_eq!(again.out, answer.out);
@@ -140,7 +140,7 @@ fn a_scene_comes_from_standard_input_or_any_file() {
 /// Largest distance of a contour's nodes from a circle.
 fn off(contour: &Shape, center: [f64; 2], radius: f64) -> f64 {
     contour
-        .outer()
+        .first()
         .iter()
         .map(|p| ((p.x - center[0]).hypot(p.y - center[1]) - radius).abs())
         .fold(0.0, f64::max)
@@ -182,7 +182,7 @@ fn a_circle_drawn_off_a_disc_is_pulled_onto_its_border() {
         assert!(answer.err.contains("came to rest after"), "{answer:?}");
         let found = shapes::load_one(&folder.path("found.csv")).unwrap();
         assert_eq!(found.closed, Some(true));
-        let area = scene::elastic::signed_area(found.outer());
+        let area = scene::elastic::signed_area(found.first());
         assert!(area * turn > 0.0, "{name} keeps its winding: {area}");
         // a Gaussian of σ pulls the edge of a disc inwards by about σ²/(2 r), 0.2 pixels here, the
         // tension of a start too large outwards again

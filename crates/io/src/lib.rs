@@ -9,7 +9,7 @@
 //! use io::shapes;
 //!
 //! let outlines = shapes::parse("# contour 1, closed\nx,y\n10,10\n30,10\n20,25\n")?;
-//! assert_eq!(outlines[0].outer().len(), 3);
+//! assert_eq!(outlines[0].first().len(), 3);
 //! assert_eq!(shapes::to_text(&outlines), "# contour 1, closed\nx,y\n10,10\n30,10\n20,25\n");
 //! # Ok::<(), io::IoError>(())
 //! ```

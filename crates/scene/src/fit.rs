@@ -101,7 +101,7 @@ impl Fit {
         contour: &io::shapes::Shape,
     ) -> Result<Scene, SceneError> {
         let closed = self.closed.or(contour.closed).unwrap_or(true);
-        let mut clicks = contour.outer().to_vec();
+        let mut clicks = contour.first().to_vec();
         // a polygon whose last point repeats the first is closed already
         if closed && clicks.len() > 1 && clicks.first() == clicks.last() {
             clicks.pop();

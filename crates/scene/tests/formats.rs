@@ -300,7 +300,7 @@ fn the_contour_on_the_page_is_read_and_written_as_it_stands() {
     let contours = shapes::parse(text).unwrap();
     assert_eq!(contours.len(), 1);
     assert_eq!(
-        (contours[0].closed, contours[0].outer().len()),
+        (contours[0].closed, contours[0].first().len()),
         (Some(true), 3)
     );
     assert_eq!(shapes::to_text(&contours), *text);

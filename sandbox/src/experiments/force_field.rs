@@ -86,7 +86,7 @@ fn run() -> Result<Record, SandboxError> {
     let picture = scene::picture("apple").map_err(SandboxError::refused(ID))?;
     let contour = scene::contour("apple-truth")
         .map_err(SandboxError::refused(ID))?
-        .outer()
+        .first()
         .to_vec();
     let image = picture.levels();
     let report = report_force(image, REPORT_PASSES, REPORT_SCALE, REPORT_GAIN)

@@ -31,7 +31,7 @@ use crate::write::write_whole;
 /// The outlines of a file.
 pub type Shapes = Vec<Shape>;
 
-/// One outline: a curve, or the border of an area that may have holes.
+/// One outline: a curve, or the border of an area that may have holes and several parts.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Shape {
     /// What its file tells it from others by.
@@ -40,7 +40,8 @@ pub struct Shape {
     pub label: Option<String>,
     /// Whether the last point of each ring joins its first, if the file says so.
     pub closed: Option<bool>,
-    /// The points, in order: the outer ring first, then those of holes. Pixels.
+    /// The points, in order, in pixels. Of an area, a place is inside that an odd number of rings
+    /// goes around: a ring in another is a hole, one beside it another part.
     pub rings: Vec<Vec<DVec2>>,
     /// Whatever else is noted of it, by name.
     pub properties: BTreeMap<String, Value>,
@@ -75,9 +76,9 @@ impl Shape {
         }
     }
 
-    /// Its outer ring.
+    /// Its first ring.
     #[must_use]
-    pub fn outer(&self) -> &[DVec2] {
+    pub fn first(&self) -> &[DVec2] {
         self.rings.first().map_or(&[], |ring| ring)
     }
 }

@@ -153,8 +153,8 @@ impl Maker<'_> {
                 number::places(&at("nodes"), &nodes)?;
                 Ok(nodes)
             }
-            ShapeText::File(file) => through(&at("file"), self.files.contour(file)?.outer()),
-            ShapeText::Shipped(name) => through(&at("shipped"), catalogue::contour(name)?.outer()),
+            ShapeText::File(file) => through(&at("file"), self.files.contour(file)?.first()),
+            ShapeText::Shipped(name) => through(&at("shipped"), catalogue::contour(name)?.first()),
         }
     }
 }

@@ -23,7 +23,7 @@ impl Truth {
     pub(crate) fn apple(id: &'static str) -> Result<Self, SandboxError> {
         let contour = scene::contour("apple-truth").map_err(SandboxError::refused(id))?;
         Ok(Self {
-            contour: contour.outer().to_vec(),
+            contour: contour.first().to_vec(),
             boxes: &scene::APPLE_DISTURBING,
             near: 4.0,
         })
