@@ -9,8 +9,8 @@ use glam::DVec2;
 use io::Picture;
 use io::page::{self, Sheet};
 
-use crate::build::force::Sight;
-use crate::{FORCES, ForceChoice, SceneError, build};
+use crate::meaning::force::Sight;
+use crate::{FORCES, ForceChoice, SceneError, meaning};
 
 /// The key of [`Fields::kinds`].
 const KIND: &str = "field.kind";
@@ -83,7 +83,7 @@ impl Fields {
             Smoothing::Binomial(_) => "field.passes",
             Smoothing::Gaussian(_) => "field.sigma",
         };
-        let smoothing = build::smoothing(key, self.smoothing, picture.size())?;
+        let smoothing = meaning::smoothing(key, self.smoothing, picture.size())?;
         let shown = |choice: &ForceChoice| choice.is_field() || choice.is_region();
         if let Some(choice) = self.kinds.iter().find(|choice| !shown(choice)) {
             let kinds = FORCES.iter().map(|kind| kind.name);
@@ -102,7 +102,7 @@ impl Fields {
             let middle = 0.5 * (DVec2::new(width as f64, height as f64) - 1.0);
             elastic::circle(middle, (0.3 * width.min(height) as f64).max(1.0), 120)
         });
-        if let Some(message) = build::outside(&curve, picture, 0.5)
+        if let Some(message) = meaning::outside(&curve, picture, 0.5)
             && self.curve.is_some()
         {
             return Err(SceneError::key("field.curve", format!("point {message}")));

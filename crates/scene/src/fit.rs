@@ -11,10 +11,10 @@ use snake::{
     World,
 };
 
-use crate::build::force::{self, Sight};
-use crate::build::{outside, smoothing};
 use crate::file::ForceText;
 use crate::limits::MOST_NODES;
+use crate::meaning::force::{self, Sight};
+use crate::meaning::{outside, smoothing};
 use crate::scene::{Plan, Recording, Scene, View};
 use crate::{Computing, ForceChoice, Picture, SceneError};
 

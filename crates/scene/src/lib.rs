@@ -19,7 +19,6 @@
 //! # Ok::<(), scene::SceneError>(())
 //! ```
 
-mod build;
 mod catalogue;
 mod company;
 mod error;
@@ -31,13 +30,13 @@ mod growing;
 mod hand;
 mod kinds;
 mod limits;
+mod meaning;
 mod record;
 mod scene;
 mod substeps;
 mod text;
 mod toml_error;
 
-pub use build::Computing;
 pub use catalogue::{APPLE_DISTURBING, SCENES, contour, headline, picture};
 pub use company::Company;
 pub use error::SceneError;
@@ -46,6 +45,7 @@ pub use fields::Fields;
 pub use fit::Fit;
 pub use hand::Hand;
 pub use kinds::{FORCES, ForceChoice, ForceKind};
+pub use meaning::Computing;
 pub use record::{Frame, Record};
 pub use scene::{Plan, Recording, Scene, View};
 pub use text::SceneText;

@@ -12,10 +12,10 @@ use snake::{
     Certificate, Ledger, Outcome, Pace, Snake, Term, Tips, Turning, TurningStepper, Until,
 };
 
-use crate::build::{USUAL_TOLERANCE, number};
 use crate::company::Company;
 use crate::hand::Hand;
 use crate::limits::{MOST_KEPT, MOST_STEPS};
+use crate::meaning::{USUAL_TOLERANCE, number};
 use crate::record::{Frame, Record};
 use crate::{Evidence, Picture, SceneError, SceneText};
 

@@ -9,7 +9,7 @@ use toml::{Table, Value};
 use crate::error::clip;
 use crate::limits::MOST_SCENE_BYTES;
 use crate::scene::Scene;
-use crate::{SceneError, build, catalogue, file, toml_error};
+use crate::{SceneError, catalogue, file, meaning, toml_error};
 
 /// What the text of a scene says, whether it makes sense or not: [`SceneText::scene`] finds out.
 ///
@@ -98,7 +98,7 @@ impl SceneText {
     ///
     /// A value that makes no sense, by its key; a file it names that cannot be read.
     pub fn scene(&self) -> Result<Scene, SceneError> {
-        let built = build::build(&self.name, &self.written, &self.folder);
+        let built = meaning::build(&self.name, &self.written, &self.folder);
         let Some(path) = &self.input else {
             return built;
         };

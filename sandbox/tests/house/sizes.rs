@@ -20,7 +20,7 @@ const LONG_TODAY: [&str; 28] = [
     "crates/elastic/tests/kernel.rs",
     "crates/field/src/sample/many.rs",
     "crates/integrator/src/adaptive.rs",
-    "crates/scene/src/build/force/mod.rs",
+    "crates/scene/src/meaning/force/mod.rs",
     "crates/scene/src/file/mod.rs",
     "crates/scene/src/scene.rs",
     "crates/scene/tests/bodies.rs",

@@ -2,7 +2,7 @@
 //! given, or given as what stands for it anyway, is not written.
 //!
 //! Every key that may be left out is an `Option` or has its default here; what the values mean is
-//! decided in `build`. `docs/formats.md` explains the format by example.
+//! decided in `meaning`. `docs/formats.md` explains the format by example.
 
 mod company;
 mod force;

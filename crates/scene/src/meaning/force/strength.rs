@@ -7,11 +7,11 @@ use snake::{Acting, ImageForce, Sampling, Schedule, SignedEdgeForce};
 
 use super::{At, Made, NORMAL_AT_0, NORMAL_AT_1, above_nothing};
 use crate::SceneError;
-use crate::build::smoothing;
 use crate::file::{
     CoarseToFineText, EdgeText, LineText, PolarityText, ScalesText, ShadeText, StrengthText,
     TerminationText,
 };
+use crate::meaning::smoothing;
 
 /// What is smoothed already.
 const AS_IT_IS: Smoothing = Smoothing::Binomial(0);
