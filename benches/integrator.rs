@@ -7,7 +7,6 @@ use glam::DVec2;
 use integrator::problems::{self, Problem};
 use integrator::{Fault, Scheme, Start, System};
 use std::hint::black_box;
-use std::num::NonZeroUsize;
 
 const SIZES: [usize; 5] = [32, 128, 512, 2048, 8192];
 

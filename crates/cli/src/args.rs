@@ -23,6 +23,8 @@ pub(crate) enum Command {
     Field(Field),
     /// Pull a drawn contour onto the edges of a picture.
     Fit(Fit),
+    /// Print the text of a scene: a shipped one by name, or a TOML file.
+    Show(Show),
     /// List the shipped scenes, the schemes, or the kinds of force.
     List(List),
 }
@@ -31,6 +33,8 @@ pub(crate) enum Command {
 pub(crate) struct Run {
     /// A shipped scene's name, or a scene file; `-` is standard input.
     pub scene: PathBuf,
+    #[command(flatten)]
+    pub changes: Changes,
     /// Another scheme than the scene's.
     #[arg(long, value_name = "NAME")]
     pub scheme: Option<String>,
@@ -68,6 +72,44 @@ pub(crate) struct Run {
     /// Write the picture with every start (blue) and every final contour (orange) over it.
     #[arg(long, value_name = "PNG")]
     pub overlay: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Show {
+    /// A shipped scene's name, or a scene file; `-` is standard input.
+    pub scene: PathBuf,
+    #[command(flatten)]
+    pub changes: Changes,
+}
+
+/// Changes of a scene's text.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Changes {
+    /// Give a key of the scene another value, as `material.tension=30` or `force.edge.strength=2`;
+    /// may be given again.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<Change>,
+}
+
+/// A change as typed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Change {
+    pub key: String,
+    pub value: String,
+}
+
+impl std::str::FromStr for Change {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (key, value) = text
+            .split_once('=')
+            .ok_or_else(|| "a key and a value are needed, as run.dt=0.1".to_owned())?;
+        Ok(Self {
+            key: key.trim().to_owned(),
+            value: value.trim().to_owned(),
+        })
+    }
 }
 
 /// A step as typed.

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use indicatif::{ProgressBar, ProgressStyle};
+use io::{Claims, Picture, shapes};
 use scene::field::{Polarity, Smoothing};
 use scene::integrator::Scheme;
 use scene::snake::{Certificate, Outcome};
-use scene::{Claims, Computing, Contour, Fields, ForceChoice, Picture, Record, Scene, SceneError};
+use scene::{Computing, Fields, ForceChoice, Record, Scene, SceneError, SceneText};
 
 use crate::args;
 use crate::output::{Output, put, say};
@@ -17,7 +18,7 @@ use crate::output::{Output, put, say};
 type Answer = Result<ExitCode, SceneError>;
 
 pub(crate) fn run(args: &args::Run) -> Answer {
-    let mut scene = find(&args.scene)?;
+    let mut scene = find(&args.scene, &args.changes)?.scene()?;
     let plan = &mut scene.plan;
     if let Some(name) = &args.scheme {
         plan.scheme = name.parse::<Scheme>().map_err(|e| key("--scheme", e))?;
@@ -111,7 +112,7 @@ pub(crate) fn fit(args: &args::Fit) -> Answer {
         steps: args.steps,
     };
     two_inputs(&args.image, Some(&args.from))?;
-    let contour = Contour::load(&args.from)?;
+    let contour = shapes::load_one(&args.from)?;
     let picture = Picture::load(&args.image)?;
     let output = Output {
         record: None,
@@ -144,8 +145,8 @@ pub(crate) fn field(args: &args::Field) -> Answer {
     let mut claims = Claims::default();
     claims.reads(&args.image);
     args.from.iter().for_each(|path| claims.reads(path));
-    let curve = args.from.as_deref().map(Contour::load).transpose()?;
-    let curve = curve.map(|contour| contour.points);
+    let curve = args.from.as_deref().map(shapes::load_one).transpose()?;
+    let curve = curve.map(|contour| contour.first().to_vec());
     let fields = Fields {
         stages: args.all || args.kind.is_empty(),
         smoothing,
@@ -158,7 +159,14 @@ pub(crate) fn field(args: &args::Field) -> Answer {
         }
     }
     let mut text = String::new();
-    for file in fields.write(&picture, &args.out)? {
+    let flags = [
+        ("field.sigma", "--sigma", true),
+        ("field.passes", "--passes", true),
+        ("field.kind", "--kind", true),
+        ("field.curve", "--from", true),
+    ];
+    let written = fields.write(&picture, &args.out);
+    for file in written.map_err(|error| by_flag(error, &flags))? {
         // writing to a String cannot fail
         let _ = writeln!(text, "{}", file.display());
     }
@@ -173,7 +181,7 @@ fn choices(flag: &str, typed: &[String]) -> Result<Vec<ForceChoice>, SceneError>
 }
 
 pub(crate) fn list(args: &args::List) -> Answer {
-    let mut text = String::new();
+    let (mut text, mut after) = (String::new(), None);
     match args.what {
         args::What::Scenes => {
             for (name, _) in scene::SCENES {
@@ -181,6 +189,7 @@ pub(crate) fn list(args: &args::List) -> Answer {
                 let report = report.map_or_else(String::new, |r| format!(" ({r})"));
                 let _ = writeln!(text, "{name:26} {title}{report}");
             }
+            after = Some("snake show NAME prints the text of one");
         }
         args::What::Schemes => {
             for scheme in Scheme::ALL {
@@ -195,6 +204,7 @@ pub(crate) fn list(args: &args::List) -> Answer {
         }
     }
     put(&text)?;
+    after.into_iter().for_each(say);
     Ok(ExitCode::SUCCESS)
 }
 
@@ -208,15 +218,30 @@ fn two_inputs(image: &Path, from: Option<&Path>) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// A shipped scene by its name, or a scene file by its path, or standard input.
-fn find(path: &Path) -> Result<Scene, SceneError> {
+/// The text of a shipped scene by its name, of a scene file by its path, or of standard input; with
+/// these changes.
+fn find(path: &Path, changes: &args::Changes) -> Result<SceneText, SceneError> {
     let name = path.to_str();
     let shipped = scene::SCENES.iter().any(|(known, _)| Some(*known) == name);
     let file = path.extension().is_some() || path.components().count() > 1 || path.exists();
-    match name {
-        Some(name) if name != "-" && (shipped || !file) => Scene::named(name),
-        _ => Scene::load(path),
+    let mut text = match name {
+        Some(name) if name != "-" && (shipped || !file) => SceneText::named(name),
+        _ => SceneText::load(path),
+    }?;
+    for change in &changes.set {
+        text.set(&change.key, &change.value)?;
     }
+    Ok(text)
+}
+
+pub(crate) fn show(args: &args::Show) -> Answer {
+    let text = find(&args.scene, &args.changes)?;
+    // what nothing is changed in is shown with its comments
+    match args.changes.set[..] {
+        [] => put(text.source())?,
+        _ => put(&text.to_string())?,
+    }
+    Ok(ExitCode::SUCCESS)
 }
 
 /// A key of the scene, the flag that stands for it, and whether it was given.
@@ -299,11 +324,17 @@ fn by_flag(error: SceneError, flags: &Flags<'_>) -> SceneError {
         SceneError::Key { key, message } => (key.as_str(), message),
         _ => return error,
     };
-    match flags
-        .iter()
-        .find(|(known, _, given)| *given && *known == at)
+    // a key within the one that a flag stands for is told by the flag and what follows
+    let below = |known: &str| {
+        at.strip_prefix(known)
+            .filter(|rest| !rest.starts_with(char::is_alphanumeric))
+    };
+    let found = flags.iter().filter(|(_, _, given)| *given);
+    match found
+        .filter_map(|(known, flag, _)| Some((flag, below(known)?)))
+        .next()
     {
-        Some((_, flag, _)) => key(flag, message),
+        Some((flag, rest)) => key(&format!("{flag}{rest}"), message),
         None => error,
     }
 }

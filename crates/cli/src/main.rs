@@ -11,6 +11,7 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 use clap::error::ErrorKind;
+use scene::SceneError;
 
 fn main() -> ExitCode {
     let args = match args::Args::try_parse() {
@@ -21,12 +22,19 @@ fn main() -> ExitCode {
         args::Command::Run(run) => commands::run(&run),
         args::Command::Field(field) => commands::field(&field),
         args::Command::Fit(fit) => commands::fit(&fit),
+        args::Command::Show(show) => commands::show(&show),
         args::Command::List(list) => commands::list(&list),
     };
     match outcome {
         Ok(code) => code,
         Err(error) => {
-            output::say(&format!("snake: {error}"));
+            let hint = match error {
+                SceneError::UnknownScene { .. } => {
+                    " (`snake list` shows all; a file needs its ending or a folder)"
+                }
+                _ => "",
+            };
+            output::say(&format!("snake: {error}{hint}"));
             ExitCode::from(2)
         }
     }

@@ -3,8 +3,9 @@
 use std::io::{ErrorKind, Write as _};
 use std::path::PathBuf;
 
+use io::{Claims, Picture, is_standard, paint, shapes};
 use scene::snake::Outcome;
-use scene::{Claims, Contour, Picture, Record, Scene, SceneError, is_standard, paint};
+use scene::{Record, Scene, SceneError};
 
 use crate::commands::key;
 
@@ -27,7 +28,7 @@ pub(crate) fn put(text: &str) -> Result<(), SceneError> {
 /// A line for people, to standard error; nobody may be there to read it.
 pub(crate) fn say(text: &str) {
     // titles and names come from files: whatever they hold stays on one line
-    let _ = writeln!(std::io::stderr(), "{}", scene::plain(text));
+    let _ = writeln!(std::io::stderr(), "{}", io::text::plain(text));
 }
 
 /// Whether standard output is the null device, which also stands in for one that was closed.
@@ -105,12 +106,12 @@ impl Output {
         };
         let mut printed = String::new();
         match &self.record {
-            Some(path) if is_standard(path) => printed.push_str(&record.to_json_lines()?),
-            Some(path) => record.save(path)?,
+            Some(path) if is_standard(path) => printed.push_str(&record.written().to_json_lines()?),
+            Some(path) => record.written().save(path)?,
             None => {}
         }
         if !matches!(record.outcome, Outcome::Diverged { .. }) {
-            let found = record.contours(last);
+            let found = last.shapes();
             match &self.contour {
                 Some(_) if found.is_empty() => say("no curve is left: no contour is written"),
                 Some(path) if is_standard(path) => {
@@ -119,18 +120,18 @@ impl Output {
                             "note: standard output is closed or /dev/null: the contour is kept nowhere",
                         );
                     }
-                    printed.push_str(&Contour::all_to_text(&found));
+                    printed.push_str(&shapes::to_text(&found));
                 }
-                Some(path) => Contour::save_all(&found, path)?,
+                Some(path) => shapes::save(&found, path)?,
                 None => {}
             }
             if let (Some(path), Some(picture)) = (&self.overlay, &scene.picture) {
-                let start = record.contours(first);
+                let start = first.shapes();
                 let start = start.iter().map(|curve| (curve, START));
                 let found = found.iter().map(|curve| (curve, FOUND));
                 let drawn = start.chain(found);
                 let curves: Vec<_> = drawn
-                    .map(|(curve, color)| (&curve.points[..], curve.closed == Some(true), color))
+                    .map(|(curve, color)| (curve.first(), curve.closed == Some(true), color))
                     .collect();
                 paint::save_png(&paint::overlay(picture, &curves), path)?;
             }

@@ -9,15 +9,18 @@
 mod common;
 
 use common::{Folder, disc, scene};
+use io::Picture;
+use io::shapes::{self, Shape};
+use scene::SCENES;
 use scene::integrator::Scheme;
-use scene::{Contour, SCENES};
 
 #[test]
 fn list_names_every_shipped_scene_on_a_line_of_its_own() {
     let folder = Folder::new();
     for args in [&["list"][..], &["list", "scenes"]] {
         let answer = folder.snake(args);
-        assert_eq!((answer.code, answer.err.as_str()), (Some(0), ""));
+        let hint = "snake show NAME prints the text of one\n";
+        assert_eq!((answer.code, answer.err.as_str()), (Some(0), hint));
         let names: Vec<&str> = answer
             .out
             .lines()
@@ -127,17 +130,17 @@ fn a_scene_comes_from_standard_input_or_any_file() {
     let folder = Folder::new();
     let answer = folder.snake_reading(&["run", "-", "--out", "-"], scene(&[]));
     assert_eq!(answer.code, Some(0), "{answer:?}");
-    let contour = Contour::parse(&answer.out).unwrap();
-    assert_eq!((contour.closed, contour.points.len()), (Some(true), 20));
+    let contour = shapes::parse_one(&answer.out).unwrap();
+    assert_eq!((contour.closed, contour.first().len()), (Some(true), 20));
     folder.write("without-an-ending", scene(&[]));
     let again = folder.snake(&["run", "without-an-ending", "--out", "-"]);
     assert_eq!(again.out, answer.out);
 }
 
 /// Largest distance of a contour's nodes from a circle.
-fn off(contour: &Contour, center: [f64; 2], radius: f64) -> f64 {
+fn off(contour: &Shape, center: [f64; 2], radius: f64) -> f64 {
     contour
-        .points
+        .first()
         .iter()
         .map(|p| ((p.x - center[0]).hypot(p.y - center[1]) - radius).abs())
         .fold(0.0, f64::max)
@@ -177,16 +180,16 @@ fn a_circle_drawn_off_a_disc_is_pulled_onto_its_border() {
         let answer = folder.snake(&args);
         assert_eq!(answer.code, Some(0), "{answer:?}");
         assert!(answer.err.contains("came to rest after"), "{answer:?}");
-        let found = Contour::load(&folder.path("found.csv")).unwrap();
+        let found = shapes::load_one(&folder.path("found.csv")).unwrap();
         assert_eq!(found.closed, Some(true));
-        let area = scene::elastic::signed_area(&found.points);
+        let area = scene::elastic::signed_area(found.first());
         assert!(area * turn > 0.0, "{name} keeps its winding: {area}");
         // a Gaussian of σ pulls the edge of a disc inwards by about σ²/(2 r), 0.2 pixels here, the
         // tension of a start too large outwards again
         let off = off(&found, center, radius);
         assert!(off < 0.5, "{name}: {off} pixels off");
         let seen = std::fs::read(folder.path("seen.png")).unwrap();
-        let seen = scene::Picture::decode(&seen).unwrap();
+        let seen = Picture::decode(&seen).unwrap();
         assert_eq!(seen.size(), (96, 96));
         // orange on the border found, blue on the start, nothing of either in a corner
         let colour = |x: u32, y: u32| seen.display().get_pixel(x, y).0;
@@ -211,7 +214,7 @@ fn a_fit_writes_to_standard_output_and_reads_a_contour_from_standard_input() {
     );
     // what was found is where it stays when it is the start
     let again = folder.snake_reading(&["fit", "disc.pgm", "--from", "-"], &answer.out);
-    let [first, second] = [&answer, &again].map(|a| Contour::parse(&a.out).unwrap());
+    let [first, second] = [&answer, &again].map(|a| shapes::parse_one(&a.out).unwrap());
     assert!(off(&second, [48.0, 48.0], 25.0) <= off(&first, [48.0, 48.0], 25.0) + 0.05);
 }
 
@@ -223,11 +226,11 @@ fn an_open_contour_stays_open_and_one_out_of_steps_says_so_by_its_code() {
     let answer = folder.snake(&["fit", "disc.pgm", "--from", "arc.csv", "--steps", "3"]);
     assert_eq!(answer.code, Some(1), "{answer:?}");
     assert!(answer.err.contains("finished after 3 steps"), "{answer:?}");
-    assert_eq!(Contour::parse(&answer.out).unwrap().closed, Some(false));
+    assert_eq!(shapes::parse_one(&answer.out).unwrap().closed, Some(false));
     let closed = folder.snake(&[
         "fit", "disc.pgm", "--from", "arc.csv", "--steps", "3", "--closed",
     ]);
-    assert_eq!(Contour::parse(&closed.out).unwrap().closed, Some(true));
+    assert_eq!(shapes::parse_one(&closed.out).unwrap().closed, Some(true));
 }
 
 #[test]
@@ -268,7 +271,7 @@ fn the_stages_of_a_field_are_written_and_named() {
     let named: Vec<String> = names.iter().map(|name| format!("a/b/{name}")).collect();
     assert_eq!(files, named);
     for file in files.iter().filter(|file| file.ends_with(".png")) {
-        let picture = scene::Picture::load(&folder.path(file)).unwrap();
+        let picture = Picture::load(&folder.path(file)).unwrap();
         let (width, height) = picture.size();
         assert!(width == height && width >= 40, "{file}");
     }
@@ -379,7 +382,7 @@ fn kinds_of_force_are_listed_refused_and_fitted_with() {
     // the edge force does not reach fifteen pixels, these do
     let reached = |args: &[&str]| {
         let answer = folder.snake(&[&["fit", "disc.pgm", "--from", "c.csv"], args].concat());
-        off(&Contour::parse(&answer.out).unwrap(), center, 25.0)
+        off(&shapes::parse_one(&answer.out).unwrap(), center, 25.0)
     };
     assert!(reached(&[]) > 10.0);
     for kind in ["gvf", "vfc", "distance"] {

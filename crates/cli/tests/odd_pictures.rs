@@ -9,8 +9,9 @@
 mod common;
 
 use common::Folder;
+use io::numbers::float_tiff;
+use io::shapes;
 use scene::field::Grid;
-use scene::numbers::float_tiff;
 
 /// A PGM of 8 bits.
 fn bytes(width: usize, height: usize, level: impl Fn(usize, usize) -> u8) -> Vec<u8> {
@@ -84,8 +85,8 @@ fn a_strip_of_100_000_by_3_is_fitted_in() {
     for force in [&[][..], &["--force", "vfc"], &["--force", "distance"]] {
         let answer = folder.snake(&[&fit[..], force].concat());
         assert_eq!(answer.code, Some(0), "{answer:?}");
-        let found = scene::Contour::parse(&answer.out).unwrap();
-        for p in found.points {
+        let found = shapes::parse_one(&answer.out).unwrap();
+        for p in found.first() {
             assert!((p.x - 69_999.5).abs() < 0.6, "{force:?}: {p}");
         }
     }
@@ -110,7 +111,7 @@ fn deep_pictures_and_levels_below_black_have_their_edges() {
         assert!(every_kind(&folder, file), "{file}");
         let answer = folder.snake(&["fit", file, "--from", "c.csv", "--sigma", "2"]);
         assert_eq!(answer.code, Some(0), "{file}: {answer:?}");
-        for p in scene::Contour::parse(&answer.out).unwrap().points {
+        for p in shapes::parse_one(&answer.out).unwrap().first() {
             let r = (p.x - 30.0).hypot(p.y - 30.0);
             assert!((r - 15.0).abs() < 0.7, "{file}: {r}");
         }
@@ -150,7 +151,7 @@ fn pixels_that_do_not_count_are_masked_when_asked_and_refused_otherwise() {
         folder.write("s.toml", scene(lines));
         let answer = folder.snake(&["run", "s.toml", "--out", "-"]);
         assert_eq!(answer.code, Some(0), "{answer:?}");
-        for p in scene::Contour::parse(&answer.out).unwrap().points {
+        for p in shapes::parse_one(&answer.out).unwrap().first() {
             assert!((p.x - 29.5).abs() < 0.3, "{lines}: {p}");
         }
     }

@@ -1,6 +1,9 @@
-//! The scenes and contours that come with the program, by name.
+//! The scenes, contours and pictures that come with the program, by name.
 
-use crate::{Contour, SceneError};
+use io::Picture;
+use io::shapes::{self, Shape};
+
+use crate::SceneError;
 
 macro_rules! scenes {
     ($($name:literal),* $(,)?) => {
@@ -113,7 +116,7 @@ pub const APPLE_DISTURBING: [(&str, [f64; 4]); 8] = [
 /// # Errors
 ///
 /// A name that none has; the message has the nearest one.
-pub fn contour(name: &str) -> Result<Contour, SceneError> {
+pub fn contour(name: &str) -> Result<Shape, SceneError> {
     let Some((_, text)) = CONTOURS.iter().find(|(known, _)| *known == name) else {
         let known: Vec<&str> = CONTOURS.iter().map(|(known, _)| *known).collect();
         let meant = crate::error::meant(name, known.iter().copied());
@@ -121,5 +124,30 @@ pub fn contour(name: &str) -> Result<Contour, SceneError> {
         let message = format!("no shipped contour \"{name}\"{meant} (known: {known})");
         return Err(SceneError::key("shipped", message));
     };
-    Contour::parse(text).map_err(|message| SceneError::key("shipped", message))
+    shapes::parse_one(text).map_err(|message| SceneError::key("shipped", message))
+}
+
+/// The pictures that come with the program, by name.
+const PICTURES: [(&str, &[u8]); 2] = [
+    ("apple", include_bytes!("../pictures/apple.png")),
+    (
+        "disturbing-edge",
+        include_bytes!("../pictures/disturbing_edge.pgm"),
+    ),
+];
+
+/// A picture that comes with the program.
+///
+/// # Errors
+///
+/// A name that none has; the message has the nearest one.
+pub fn picture(name: &str) -> Result<Picture, SceneError> {
+    let Some((_, bytes)) = PICTURES.iter().find(|(known, _)| *known == name) else {
+        let known: Vec<&str> = PICTURES.iter().map(|(known, _)| *known).collect();
+        let meant = crate::error::meant(name, known.iter().copied());
+        let (name, known) = (crate::error::clip(name), known.join(", "));
+        let message = format!("no shipped picture \"{name}\"{meant} (known: {known})");
+        return Err(SceneError::key("picture.shipped", message));
+    };
+    Picture::decode(bytes).map_err(|message| SceneError::key("picture.shipped", message))
 }

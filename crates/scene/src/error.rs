@@ -1,9 +1,10 @@
-//! What can be wrong with a scene, a picture or a contour. Every message names the key or the
-//! file, what was given, and what would do.
+//! What can be wrong with a scene. Every message names the key or the file, what was given, and
+//! what would do.
 
-use std::path::PathBuf;
+use io::IoError;
+pub(crate) use io::text::clip;
 
-/// Why a scene, a picture, a contour or a record was refused.
+/// Why a scene was refused.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
@@ -24,10 +25,7 @@ pub enum SceneError {
         message: String,
     },
     /// No shipped scene has this name.
-    #[error(
-        "no shipped scene is called \"{}\"{nearest} (`snake list` shows all; a file needs its ending or a folder)",
-        clip(name)
-    )]
+    #[error("no shipped scene is called \"{}\"{nearest}", clip(name))]
     UnknownScene {
         /// The name given.
         name: String,
@@ -35,13 +33,8 @@ pub enum SceneError {
         nearest: String,
     },
     /// A file that cannot be read or written.
-    #[error("{}: {message}", path.display())]
-    File {
-        /// The file or folder.
-        path: PathBuf,
-        /// What is wrong.
-        message: String,
-    },
+    #[error(transparent)]
+    File(#[from] IoError),
     /// A step larger than the scheme can bear.
     #[error("run.dt: {0}")]
     Step(String),
@@ -54,45 +47,6 @@ impl SceneError {
             message: message.to_string(),
         }
     }
-
-    pub(crate) fn file(path: &std::path::Path, message: impl ToString) -> Self {
-        Self::File {
-            path: path.to_owned(),
-            message: message.to_string(),
-        }
-    }
-}
-
-/// At most sixty characters of what was given, on one line, for a message.
-pub(crate) fn clip(given: &str) -> String {
-    clip_to(given, 60)
-}
-
-/// [`clip`] to so many characters.
-pub(crate) fn clip_to(given: &str, most: usize) -> String {
-    let mut short = plain(&given.trim().chars().take(most).collect::<String>());
-    if given.trim().chars().nth(most).is_some() {
-        short.push('…');
-    }
-    short
-}
-
-/// Text on one line, without letters that would move the cursor or turn the order of others about.
-#[must_use]
-pub fn plain(text: &str) -> String {
-    let shown = |c: char| !(c.is_control() || is_directing(c));
-    text.chars()
-        .map(|c| if shown(c) { c } else { '\u{fffd}' })
-        .collect()
-}
-
-/// Letters without a shape that change how those around them are shown: directions, separators of lines, marks of a
-/// beginning.
-const fn is_directing(c: char) -> bool {
-    matches!(
-        c,
-        '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}'
-    )
 }
 
 /// What to say behind an unknown word: the known one that it is most like, if it is like any.
@@ -135,14 +89,5 @@ mod tests {
         ] {
             assert_eq!(nearest(word, known), near, "{word}");
         }
-    }
-
-    #[test]
-    fn letters_that_turn_others_about_are_not_shown() {
-        assert_eq!(
-            plain("a\u{202e}b\u{1b}[1mc\u{2066}ä"),
-            "a\u{fffd}b\u{fffd}[1mc\u{fffd}ä"
-        );
-        assert_eq!(clip(&"é".repeat(61)), format!("{}…", "é".repeat(60)));
     }
 }

@@ -9,7 +9,7 @@ use integrator::State;
 use outline::Neighbours;
 use snake::Snake;
 
-use crate::build::force::PULL;
+use crate::meaning::force::PULL;
 
 /// How far to either side of a node the forces are asked for. Pixels.
 const PROBE: f64 = 1.0;

@@ -11,12 +11,12 @@ use snake::{
     World,
 };
 
-use crate::build::force::{self, Sight};
-use crate::build::{outside, smoothing};
 use crate::file::ForceText;
 use crate::limits::MOST_NODES;
+use crate::meaning::force::{self, Sight};
+use crate::meaning::{outside, smoothing};
 use crate::scene::{Plan, Recording, Scene, View};
-use crate::{Computing, Contour, ForceChoice, Picture, SceneError};
+use crate::{Computing, ForceChoice, Picture, SceneError};
 
 /// The least distance of the found sides of a bar that is wide enough, in σ: those of a thin line are 2 σ apart
 /// however thin it is, those of a bar of 2 σ are 2.3 σ.
@@ -95,9 +95,13 @@ impl Fit {
     ///
     /// A contour with too few points or outside the picture, or a number that will not do; by the
     /// name of the flag.
-    pub fn scene(&self, picture: Picture, contour: &Contour) -> Result<Scene, SceneError> {
+    pub fn scene(
+        &self,
+        picture: Picture,
+        contour: &io::shapes::Shape,
+    ) -> Result<Scene, SceneError> {
         let closed = self.closed.or(contour.closed).unwrap_or(true);
-        let mut clicks = contour.points.clone();
+        let mut clicks = contour.first().to_vec();
         // a polygon whose last point repeats the first is closed already
         if closed && clicks.len() > 1 && clicks.first() == clicks.last() {
             clicks.pop();

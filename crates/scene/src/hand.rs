@@ -4,8 +4,8 @@ use integrator::State;
 use snake::{Acting, Edit, Snake};
 
 use crate::SceneError;
-use crate::build::force_now;
 use crate::file::ForceText;
+use crate::meaning::force_now;
 
 /// The hands of a scene: forces and holds, each on one snake, from one time until another. [`Scene::run`](crate::Scene::run)
 /// lets them take hold and let go after the steps whose times these are; the default has none.

@@ -3,9 +3,9 @@
 use field::Polarity;
 
 use crate::SceneError;
-use crate::build::force;
 use crate::error::{clip, meant};
 use crate::file::{CommonText, EdgeText, ForceText, KindText, PolarityText, WORDS};
+use crate::meaning::force;
 
 /// A kind of force that a scene can name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,9 +1,10 @@
-//! Situations as text, pictures and records as files.
+//! Situations as text, and what the text means.
 //!
-//! This is the first floor with windows: everything below computes and does no I/O. A scene is a
-//! TOML text that names a picture, a curve, a material, a world and a plan; [`Scene::parse`] turns
-//! it into a snake ready to run and refuses what makes no sense, by its key. The shipped scenes are
-//! [`SCENES`]; `docs/formats.md` describes the formats by example.
+//! A scene is a TOML text that names a picture, a curve, a material, a world and a plan;
+//! [`Scene::parse`] turns it into a snake ready to run and refuses what makes no sense, by its key.
+//! As a value the text is a [`SceneText`], which is changed key by key and written again. Files are
+//! read and written by [`io`]. The shipped scenes are [`SCENES`]; `docs/formats.md` describes the
+//! formats by example.
 //!
 //! ```
 //! use scene::Scene;
@@ -18,48 +19,40 @@
 //! # Ok::<(), scene::SceneError>(())
 //! ```
 
-mod build;
 mod catalogue;
-mod claims;
 mod company;
-mod contour;
 mod error;
 mod evidence;
+mod fields;
 mod file;
 mod fit;
 mod hand;
 mod kinds;
 mod limits;
-pub mod numbers;
-mod page;
-pub mod paint;
-mod picture;
-mod read;
+mod meaning;
 mod record;
 mod run;
 mod scene;
 mod substeps;
+mod text;
 mod toml_error;
-mod write;
 
-pub use build::Computing;
-pub use catalogue::{APPLE_DISTURBING, SCENES, contour, headline};
-pub use claims::{Claims, is_standard};
+pub use catalogue::{APPLE_DISTURBING, SCENES, contour, headline, picture};
 pub use company::Company;
-pub use contour::Contour;
-pub use error::{SceneError, plain};
+pub use error::SceneError;
 pub use evidence::{Evidence, Narrow};
+pub use fields::Fields;
 pub use fit::Fit;
 pub use hand::Hand;
 pub use kinds::{FORCES, ForceChoice, ForceKind};
-pub use page::Fields;
-pub use picture::{Invalid, Picture};
-pub use record::{Curve, Frame, Record};
+pub use meaning::Computing;
+pub use record::{Frame, Record};
 pub use scene::{Plan, Recording, Scene, View};
-pub use write::{ready_file, ready_folder, write_whole};
+pub use text::SceneText;
 
 pub use elastic;
 pub use field;
-pub use image::RgbImage;
 pub use integrator;
 pub use snake;
+
+use io::Picture;

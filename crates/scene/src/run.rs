@@ -8,7 +8,9 @@ use snake::{
     SimulationError, Snake, Stepping, Until,
 };
 
-use crate::record::{Curve, Frame, Record};
+use io::record::Curve;
+
+use crate::record::{Frame, Record};
 use crate::scene::{Recording, Scene, refused_step};
 use crate::{Evidence, SceneError};
 
@@ -210,25 +212,17 @@ fn frame(simulation: &mut Simulation, keep: &Recording, alone: bool) -> Result<F
         _ => Some(simulation.energies()),
     };
     let velocities = keep.velocities;
-    let mut curves = simulation.members().iter().map(|member| Curve {
+    let curves = simulation.members().iter().map(|member| Curve {
         id: member.id(),
         closed: member.is_closed(),
         nodes: member.state().x.clone(),
         velocities: velocities.then(|| member.state().v.clone()),
     });
-    let first = curves.next();
-    let others = curves.collect();
-    let (id, nodes, velocities) = first.map_or((0, Vec::new(), None), |curve| {
-        (curve.id, curve.nodes, curve.velocities)
-    });
     Ok(Frame {
         step: simulation.steps(),
         t: simulation.t(),
-        nodes,
-        velocities,
+        curves: curves.collect(),
         energies,
-        first: id,
-        others,
     })
 }
 

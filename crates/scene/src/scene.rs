@@ -9,11 +9,11 @@ use glam::DVec2;
 use integrator::{Scheme, SchemeError, Start, State};
 use snake::{Certificate, Snake, Term, Tips, Until};
 
-use crate::build::{USUAL_TOLERANCE, number};
 use crate::company::Company;
 use crate::hand::Hand;
-use crate::limits::{MOST_KEPT, MOST_SCENE_BYTES, MOST_STEPS};
-use crate::{Picture, SceneError, build, catalogue, read, toml_error};
+use crate::limits::{MOST_KEPT, MOST_STEPS};
+use crate::meaning::{USUAL_TOLERANCE, number};
+use crate::{Picture, SceneError, SceneText};
 
 /// How a drawing should look at a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -181,7 +181,7 @@ impl Scene {
     ///
     /// [`SceneError::UnknownScene`] with the nearest name.
     pub fn named(name: &str) -> Result<Self, SceneError> {
-        Self::parse(name, catalogue::text(name)?, Path::new("."))
+        SceneText::named(name)?.scene()
     }
 
     /// A scene from a file, or from standard input for `-`.
@@ -190,15 +190,7 @@ impl Scene {
     ///
     /// A file that cannot be read, or whatever [`Scene::parse`] refuses, by the file's name.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
-        let text = read::text(path, "a scene in TOML", MOST_SCENE_BYTES)?;
-        let name = path
-            .file_stem()
-            .map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-        let folder = path.parent().unwrap_or_else(|| Path::new("."));
-        let mut scene = Self::parse(&name, &text, folder)
-            .map_err(|error| SceneError::file(&read::called(path), error))?;
-        scene.inputs.push(path.to_owned());
-        Ok(scene)
+        SceneText::load(path)?.scene()
     }
 
     /// A scene from text; files that it names are looked for in `folder`.
@@ -208,7 +200,7 @@ impl Scene {
     /// Text that is no TOML, an unknown key (with the nearest known one), a missing key, a value
     /// that will not do: each by its key or line.
     pub fn parse(name: &str, text: &str, folder: &Path) -> Result<Self, SceneError> {
-        build::build(name, &toml_error::parse(text)?, folder)
+        SceneText::parse(name, text, folder)?.scene()
     }
 
     /// Largest stable step of the scene's scheme wherever the curve may go and at all times of the run; `None` if any

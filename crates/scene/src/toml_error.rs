@@ -1,5 +1,7 @@
 //! TOML's own messages, turned into one line that names the place and what would do.
 
+use serde::Deserialize as _;
+
 use crate::SceneError;
 use crate::error::{clip, meant};
 use crate::file::SceneText;
@@ -8,6 +10,11 @@ use crate::limits::MOST_VALUES;
 /// Read the text of a scene.
 pub(crate) fn parse(text: &str) -> Result<SceneText, SceneError> {
     read(text)
+}
+
+/// The text of a scene from the table that it is in TOML.
+pub(crate) fn from_table(table: toml::Table) -> Result<SceneText, String> {
+    SceneText::deserialize(toml::Value::Table(table)).map_err(|error| helpful(error.message()))
 }
 
 /// Read a text of any shape.
@@ -55,6 +62,16 @@ fn helpful(message: &str) -> String {
         && entry.starts_with("force ")
     {
         return format!("{entry}: {}", helpful(rest));
+    }
+    if message.starts_with("wanted exactly 1 element") {
+        return "must have exactly one key, the word for what it is".to_owned();
+    }
+    if message == "invalid type: unit variant, expected newtype variant" {
+        return "is a word that needs a value, as { word = value }".to_owned();
+    }
+    // serde names the type of this program
+    if let Some((given, _)) = message.split_once(", expected struct ") {
+        return format!("{}, expected a table", clip(given));
     }
     let mut quoted = message.split('`').skip(1).step_by(2);
     let unknown = message.starts_with("unknown field") || message.starts_with("unknown variant");

@@ -112,7 +112,7 @@ fn a_spinning_oval_keeps_its_energy_by_either_turning_frame_and_moves_alike() {
     let by_fit = run(&mut changed("spinning-oval", &fit).unwrap());
     let pairs = by_equations.frames.iter().zip(&by_fit.frames);
     for (a, b) in pairs {
-        let apart = a.nodes.iter().zip(&b.nodes).map(|(a, b)| a.distance(*b));
+        let apart = a.nodes().iter().zip(b.nodes()).map(|(a, b)| a.distance(*b));
         // two ways of order 4 over two turns
         assert!(apart.fold(0.0, f64::max) < 1e-5, "at {}", a.t);
     }
@@ -178,9 +178,9 @@ fn a_picture_that_rotates_takes_a_turning_oval_with_it_and_strains_one_that_does
         let record = run(&mut scene);
         let last = record.frames.last().unwrap();
         // angle of the longer axis, from the second moments
-        let center = elastic::center(&last.nodes, None);
+        let center = elastic::center(last.nodes(), None);
         let (mut xx, mut xy) = (0.0, 0.0);
-        for p in &last.nodes {
+        for p in last.nodes() {
             let q = *p - center;
             xx += q.x * q.x - q.y * q.y;
             xy += 2.0 * q.x * q.y;
@@ -252,7 +252,7 @@ fn tips_find_a_whole_road_in_noise_from_one_stretch_of_it_and_stop_where_it_ends
     // growth is booked: rounding of some thousand steps
     let spent = end.energies.as_ref().unwrap().damping;
     assert!(spent > 1.0 && (total(end) - total(first)).abs() < 1e-12 * spent);
-    let last = &end.nodes;
+    let last = end.nodes();
     let worst = last.iter().map(|&p| from_road(p).0).fold(0.0, f64::max);
     // the road is 4 wide, the noise a fifth of its height, smoothed over some 25 pixels
     assert!(worst < 1.5, "{worst}");
@@ -268,7 +268,7 @@ fn tips_find_a_whole_road_in_noise_from_one_stretch_of_it_and_stop_where_it_ends
 fn ends_on_the_border_slide_along_it_to_the_edge() {
     let mut scene = Scene::named("sliding-strip").unwrap();
     let record = run(&mut scene);
-    let last = &record.frames.last().unwrap().nodes;
+    let last = record.frames.last().unwrap().nodes();
     for (at, x) in [(last[0], 0.0), (last[39], 95.0)] {
         // the box begins in the middle of row 40
         assert!(
@@ -283,7 +283,7 @@ fn ends_on_the_border_slide_along_it_to_the_edge() {
         "\"pinned\", tail = \"pinned\"",
     )];
     let pinned = run(&mut changed("sliding-strip", &pinned).unwrap());
-    assert!((pinned.frames.last().unwrap().nodes[0].y - 34.0).abs() < 1e-12);
+    assert!((pinned.frames.last().unwrap().nodes()[0].y - 34.0).abs() < 1e-12);
 }
 
 #[test]
@@ -383,7 +383,7 @@ fn orders_above_the_second_go_with_all_that_a_body_does() {
     let kept = |k: usize| record.frames[k].energies.clone().unwrap();
     let (first, last) = (kept(0), kept(record.frames.len() - 1));
     let put_in = last.upkeep.abs();
-    let nodes = record.frames[record.frames.len() - 1].nodes.len();
+    let nodes = record.frames[record.frames.len() - 1].nodes().len();
     assert!(nodes > 60, "{nodes}");
     let off = (last.total() - first.total()).abs();
     assert!(

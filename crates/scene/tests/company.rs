@@ -52,11 +52,16 @@ fn a_snake_put_elsewhere_takes_its_springs_along() {
     let last = record.frames.last().unwrap();
     let first = &record.frames[0];
     let mut moved = 0.0_f64;
-    for (i, (one, two)) in last.nodes.iter().zip(&last.others[0].nodes).enumerate() {
+    for (i, (one, two)) in last.curves[0]
+        .nodes
+        .iter()
+        .zip(&last.curves[1].nodes)
+        .enumerate()
+    {
         // rounding of places of some tens
         assert!((two.x - one.x - 40.0).abs() < 1e-9, "node {i}: {one} {two}");
         assert!((two.y - one.y - 24.0).abs() < 1e-9, "node {i}: {one} {two}");
-        moved = moved.max(one.distance(first.nodes[i]));
+        moved = moved.max(one.distance(first.nodes()[i]));
     }
     assert!(moved > 0.3, "{moved}");
 }

@@ -8,8 +8,10 @@ use std::path::Path;
 use field::{EdgeForce, Grid, Smoothing};
 use glam::DVec2;
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, Rgb};
+use io::Picture;
+use io::shapes::Shape;
 use scene::snake::ImageForce;
-use scene::{Computing, Contour, Fit, ForceChoice, Picture, Scene};
+use scene::{Computing, Fit, ForceChoice, Scene};
 
 const SIZE: (u32, u32) = (300, 200);
 
@@ -49,12 +51,10 @@ fn pictures() -> [(&'static str, Picture); 4] {
     ]
 }
 
-fn circle(center: DVec2, radius: f64) -> Contour {
+fn circle(center: DVec2, radius: f64) -> Shape {
     let turn = |i: i32| DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / 60.0);
-    Contour {
-        points: (0..60).map(|i| center + radius * turn(i)).collect(),
-        closed: Some(true),
-    }
+    let points = (0..60).map(|i| center + radius * turn(i)).collect();
+    Shape::curve(points, Some(true))
 }
 
 fn fit(computing: Computing, sigma: f64) -> Fit {
@@ -95,7 +95,7 @@ fn a_lazy_fit_ends_where_a_whole_one_does_and_looks_at_a_few_tiles() {
         let run = |computing| {
             let scene = fit(computing, 3.0).scene(picture.clone(), &around).unwrap();
             let record = scene.run(&mut |_| std::ops::ControlFlow::Continue(()));
-            let end = record.unwrap().last().unwrap().nodes.clone();
+            let end = record.unwrap().last().unwrap().nodes().to_vec();
             (end, scene.field.unwrap().tiles_computed())
         };
         let ((lazy, tiles), (whole, none)) = (run(Computing::Auto), run(Computing::Whole));
@@ -222,7 +222,7 @@ fn from_coarse_to_fine_a_fit_arrives_from_where_one_scale_does_not() {
         let scene = fit.scene(picture.clone(), &far).unwrap();
         let record = scene.run(&mut |_| std::ops::ControlFlow::Continue(()));
         let record = record.unwrap();
-        let nodes = record.last().unwrap().nodes.clone();
+        let nodes = record.last().unwrap().nodes().to_vec();
         let off = |p: &DVec2| (p.distance(DVec2::new(150.0, 100.0)) - 40.0).abs();
         (
             nodes.iter().map(off).fold(0.0, f64::max),

@@ -7,8 +7,9 @@ use std::path::Path;
 
 use glam::DVec2;
 use image::{DynamicImage, ImageFormat, RgbImage};
+use io::Picture;
+use scene::Scene;
 use scene::snake::{Curve, ImageForce, World};
-use scene::{Picture, Scene};
 
 /// A picture bright from x = 32 on, with these lines after its table.
 fn text(foreground: f64, lines: &str) -> String {
@@ -331,7 +332,7 @@ fn ends_at(radius: f64, rest: f64, lines: &str) -> Vec<f64> {
     let record = scene
         .run(&mut |_| std::ops::ControlFlow::Continue(()))
         .unwrap();
-    let nodes = &record.last().unwrap().nodes;
+    let nodes = record.last().unwrap().nodes();
     nodes
         .iter()
         .map(|p| p.distance(DVec2::new(32.0, 30.0)))

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use scene::{Contour, Record, Scene};
+use io::shapes;
+use scene::{Record, Scene};
 
 fn page() -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/formats.md");
@@ -286,19 +287,23 @@ fn the_records_on_the_page_are_what_the_scene_on_it_leaves() {
     let page = page();
     let mut rod = scene(&blocks(&page, "toml")[0]);
     assert_eq!(
-        run(&mut rod).to_json_lines().unwrap(),
+        run(&mut rod).written().to_json_lines().unwrap(),
         blocks(&page, "jsonl")[0]
     );
     rod.plan.recording.energies = true;
-    assert_eq!(run(&mut rod).to_csv(), blocks(&page, "csv")[1]);
+    assert_eq!(run(&mut rod).written().to_csv(), blocks(&page, "csv")[1]);
 }
 
 #[test]
 fn the_contour_on_the_page_is_read_and_written_as_it_stands() {
     let text = &blocks(&page(), "csv")[0];
-    let contour = Contour::parse(text).unwrap();
-    assert_eq!((contour.closed, contour.points.len()), (Some(true), 3));
-    assert_eq!(contour.to_text(), *text);
+    let contours = shapes::parse(text).unwrap();
+    assert_eq!(contours.len(), 1);
+    assert_eq!(
+        (contours[0].closed, contours[0].first().len()),
+        (Some(true), 3)
+    );
+    assert_eq!(shapes::to_text(&contours), *text);
 }
 
 #[test]
@@ -315,7 +320,7 @@ fn every_shipped_name_is_on_the_page() {
         assert!(page.contains(&format!("`\"{name}\"`")), "{name}");
     }
     for name in ["apple", "disturbing-edge"] {
-        scene::Picture::shipped(name).unwrap();
+        scene::picture(name).unwrap();
         assert!(page.contains(&format!("`\"{name}\"`")), "{name}");
     }
 }

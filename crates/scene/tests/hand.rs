@@ -83,7 +83,7 @@ fn a_hand_of_a_scene_is_what_an_observer_would_do() {
         }
         stepper.step(&mut snake, &mut state).unwrap();
     }
-    assert_eq!(record.last().unwrap().nodes, state.x);
+    assert_eq!(record.last().unwrap().nodes(), state.x);
     assert_eq!(
         record.events,
         [
@@ -99,9 +99,9 @@ fn a_hand_of_a_scene_is_what_an_observer_would_do() {
 fn before_a_hand_comes_the_run_is_the_one_without_it_to_the_last_bit() {
     let (with, without) = (run(&mut scene(PULL)), run(&mut scene("")));
     for (a, b) in with.frames.iter().zip(&without.frames).take(101) {
-        assert_eq!(a.nodes, b.nodes, "at step {}", a.step);
+        assert_eq!(a.nodes(), b.nodes(), "at step {}", a.step);
     }
-    let (a, b) = (&with.frames[110].nodes, &without.frames[110].nodes);
+    let (a, b) = (with.frames[110].nodes(), without.frames[110].nodes());
     assert!(a[10].distance(b[10]) > 0.1, "{} {}", a[10], b[10]);
 }
 
@@ -123,7 +123,7 @@ fn what_a_hand_puts_in_is_booked_and_the_account_closes() {
 fn held_nodes_stand_until_they_are_let_go_and_no_longer() {
     let hold = "[[hand]]\nfrom = 2.0\nuntil = 9.0\nhold = [3, 5]\n[[hand]]\nfrom = 4.0\nuntil = 12.0\nhold = [5, 6]";
     let record = run(&mut scene(hold));
-    let at = |k: usize, node: usize| record.frames[k].nodes[node];
+    let at = |k: usize, node: usize| record.frames[k].nodes()[node];
     for (node, from, until) in [(3, 40, 180), (5, 40, 240), (6, 80, 240)] {
         for k in from..=until {
             assert_eq!(at(k, node), at(from, node), "node {node} at step {k}");
@@ -140,7 +140,7 @@ fn a_freeze_keeps_nodes_where_they_are_when_it_comes() {
             "[[hand]]\nfrom = {from:.1}\nforce = {{ kind = \"freeze\", stretch = [8, 12], stiffness = 200.0, damping = 20.0 }}"
         );
         let record = run(&mut scene(&hand));
-        let (then, end) = (&record.frames[step].nodes, &record.last().unwrap().nodes);
+        let (then, end) = (record.frames[step].nodes(), record.last().unwrap().nodes());
         (8..=12)
             .map(|i| then[i].distance(end[i]))
             .fold(0.0, f64::max)
@@ -242,7 +242,7 @@ fn a_hand_drags_one_ball_of_two_against_the_other() {
     let record = run(&mut balls(drag).unwrap());
     let end = record.last().unwrap();
     let center = |nodes: &[glam::DVec2]| elastic_center(nodes).x;
-    let [first, second] = [&end.nodes, &end.others[0].nodes].map(|nodes| center(nodes));
+    let [first, second] = [0, 1].map(|k| center(&end.curves[k].nodes));
     // the first is pushed aside by the second, which is dragged
     assert!(first < -0.5 && second < 4.0, "{first} {second}");
     assert_eq!(
@@ -250,7 +250,7 @@ fn a_hand_drags_one_ball_of_two_against_the_other() {
         "t = 1.0000: hand 0 takes hold of the curve of snake 1, spring"
     );
     let still = run(&mut balls("").unwrap());
-    assert!(center(&still.last().unwrap().nodes).abs() < 1e-9);
+    assert!(center(still.last().unwrap().nodes()).abs() < 1e-9);
     // a snake that there is not
     let error = balls(&drag.replace("snake = 1", "snake = 2")).unwrap_err();
     assert!(

@@ -29,8 +29,8 @@ impl Allowed<'_> {
         if self.scene.plan.scheme != Scheme::Report {
             return 0.0;
         }
-        let velocities = after.velocities.as_ref().unwrap();
-        let nodes = after.nodes.iter().zip(velocities).enumerate();
+        let velocities = after.velocities().unwrap();
+        let nodes = after.nodes().iter().zip(velocities).enumerate();
         let each = nodes.map(|(i, (x, v))| body.mass.at(i) * v.length() * x.length() / self.dt);
         8.0 * f64::EPSILON * body.spacing * each.sum::<f64>()
     }

@@ -100,9 +100,9 @@ fn the_depth_of_a_picture_changes_nothing() {
     let last = |file: &str, map: &str| {
         let picture = format!("[picture]\nfile = \"{file}\"");
         let map = format!("{{ value = 3.0, map = {map}, low = 0.5, high = 2.0 }}");
-        let mut scene = Scene::parse("t", &text(&picture, &map, "1.0", ""), &folder).unwrap();
+        let scene = Scene::parse("t", &text(&picture, &map, "1.0", ""), &folder).unwrap();
         let record = scene.run(&mut |_| ControlFlow::Continue(())).unwrap();
-        record.last().unwrap().nodes.clone()
+        record.last().unwrap().nodes().to_vec()
     };
     for map in [
         "\"grey\"",
@@ -240,7 +240,7 @@ fn every_scheme_but_those_of_modes_runs_the_map() {
         }
         let named = format!("dt = 0.01\nscheme = \"{}\"", scheme.name());
         let text = text(STEP, grey, "1.0", "").replace("dt = 0.01", &named);
-        let mut scene = Scene::parse("t", &text, Path::new(".")).unwrap();
+        let scene = Scene::parse("t", &text, Path::new(".")).unwrap();
         let record = scene.run(&mut |_| ControlFlow::Continue(())).unwrap();
         assert!(record.outcome.is_good(), "{scheme}");
     }

@@ -53,8 +53,8 @@ fn compare(scene: &mut Scene, expected: &Steps) -> (Outcome, f64) {
     for (step, (nodes, tolerance)) in expected {
         let frame = record.frames.iter().find(|f| f.step == *step);
         let frame = frame.unwrap_or_else(|| panic!("step {step} was not reached"));
-        assert_eq!(frame.nodes.len(), nodes.len());
-        for (i, (p, q)) in frame.nodes.iter().zip(nodes).enumerate() {
+        assert_eq!(frame.nodes().len(), nodes.len());
+        for (i, (p, q)) in frame.nodes().iter().zip(nodes).enumerate() {
             let off = (p.x - q[0]).abs().max((p.y - q[1]).abs());
             assert!(
                 off <= *tolerance,

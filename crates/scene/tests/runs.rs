@@ -36,7 +36,10 @@ fn every_shipped_scene_runs_ten_steps_and_gives_the_same_bytes_twice() {
             scene.plan.recording.velocities = true;
             let record = run(&mut scene);
             assert_eq!(record.outcome.step(), 10, "{name}: {}", record.outcome);
-            (record.to_json_lines().unwrap(), record.to_csv())
+            (
+                record.written().to_json_lines().unwrap(),
+                record.written().to_csv(),
+            )
         };
         assert_eq!(ten(), ten(), "{name}");
     }
@@ -56,20 +59,20 @@ fn cut(mut scene: Scene) -> f64 {
     scene.start = State {
         t: middle.t,
         step: middle.step,
-        x: middle.nodes.clone(),
-        v: middle.velocities.clone().unwrap(),
+        x: middle.nodes().to_vec(),
+        v: middle.velocities().unwrap().to_vec(),
     };
     scene.plan.until.steps = 35;
     let rest = run(&mut scene);
     let (one, two) = (whole.last().unwrap(), rest.last().unwrap());
     assert_eq!((one.step, two.step), (60, 60));
     assert!((one.t - two.t).abs() < 1e-12 * one.t);
-    let middle = one.nodes.len() / 2;
-    let moved = one.nodes[middle].distance(whole.frames[0].nodes[middle]);
+    let middle = one.nodes().len() / 2;
+    let moved = one.nodes()[middle].distance(whole.frames[0].nodes()[middle]);
     assert!(moved > 1e-3, "nothing moved: {moved}");
-    one.nodes
+    one.nodes()
         .iter()
-        .zip(&two.nodes)
+        .zip(two.nodes())
         .map(|(p, q)| (*p - *q).abs().max_element())
         .fold(0.0, f64::max)
 }
@@ -152,7 +155,7 @@ fn the_energies_of_a_record_sum_up_to_its_total() {
         .map(|f| f.energies.as_ref().unwrap().wall)
         .fold(0.0, f64::max);
     assert!(wall > 0.0, "the wall is met");
-    let text = record.to_csv();
+    let text = record.written().to_csv();
     let names: Vec<&str> = text.lines().nth(1).unwrap().split(',').collect();
     assert_eq!(names.last(), Some(&"total"));
     for line in text.lines().skip(2) {
@@ -181,19 +184,19 @@ fn both_formats_give_every_number_back_to_the_bit() {
     scene.plan.recording.every = Some(100);
     scene.plan.recording.velocities = true;
     let record = run(&mut scene);
-    let csv = record.to_csv();
+    let csv = record.written().to_csv();
     let mut lines = csv.lines().skip(2);
-    let json = record.to_json_lines().unwrap();
+    let json = record.written().to_json_lines().unwrap();
     for (frame, line) in record.frames.iter().zip(json.lines().skip(1)) {
-        let velocities = frame.velocities.as_ref().unwrap();
+        let velocities = frame.velocities().unwrap();
         let energies = frame.energies.as_ref().unwrap();
         let mut expected = vec![frame.step as f64, frame.t];
-        expected.extend(frame.nodes.iter().flat_map(|p| p.to_array()));
+        expected.extend(frame.nodes().iter().flat_map(|p| p.to_array()));
         expected.extend(velocities.iter().flat_map(|v| v.to_array()));
         expected.extend(energies.values());
         expected.push(energies.total());
         same(&numbers(line), &expected);
-        for (i, (p, v)) in frame.nodes.iter().zip(velocities).enumerate() {
+        for (i, (p, v)) in frame.nodes().iter().zip(velocities).enumerate() {
             let mut expected = vec![frame.step as f64, frame.t, i as f64, p.x, p.y, v.x, v.y];
             expected.extend(energies.values());
             expected.push(energies.total());
@@ -218,7 +221,7 @@ fn chosen_sub_steps_end_where_short_ones_do_and_say_why() {
     let rod = |plan: &str| Scene::parse("t", &format!("{ROD}{plan}\n"), Path::new("."));
     let end = |plan: &str| {
         let record = run(&mut rod(plan).unwrap());
-        (record.last().unwrap().nodes.clone(), record)
+        (record.last().unwrap().nodes().to_vec(), record)
     };
     let (exact, slow) = end("dt = 0.0005\ntime = 5.0");
     let (chosen, record) = end("dt = \"auto\"\ntolerance = 1e-5\noutput = 1.0\ntime = 5.0");

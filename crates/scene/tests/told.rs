@@ -38,7 +38,7 @@ fn the_tolerance_of_chosen_steps_reaches_dormand_and_prince() {
     };
     let steps = ["1e-2", "1e-5", "1e-8"].map(|tolerance| {
         let record = run(tolerance);
-        (record.outcome.step(), record.last().unwrap().nodes[0])
+        (record.outcome.step(), record.last().unwrap().nodes()[0])
     });
     assert!(
         steps[0].0 < steps[1].0 && steps[1].0 < steps[2].0,

@@ -44,7 +44,7 @@ fn end(mut scene: Scene, scheme: Scheme) -> ([f64; 2], [f64; 2]) {
     scene.plan.recording.velocities = true;
     let record = scene.run(&mut |_| ControlFlow::Continue(())).unwrap();
     let last = record.frames.last().unwrap();
-    let points = |frame: &Frame| (frame.nodes.clone(), frame.velocities.clone().unwrap());
+    let points = |frame: &Frame| (frame.nodes().to_vec(), frame.velocities().unwrap().to_vec());
     let (nodes, velocities) = points(last);
     let count = f64::from(u32::try_from(nodes.len()).unwrap());
     let mean = |of: &dyn Fn(usize) -> f64| (0..nodes.len()).map(of).sum::<f64>() / count;
@@ -93,11 +93,11 @@ fn a_ball_that_hits_a_smooth_wall_squarely_does_not_bulge_along_it() {
             record.frames.last().unwrap(),
         );
         let center = |frame: &Frame| {
-            let count = f64::from(u32::try_from(frame.nodes.len()).unwrap());
-            frame.nodes.iter().map(|x| x.y).sum::<f64>() / count
+            let count = f64::from(u32::try_from(frame.nodes().len()).unwrap());
+            frame.nodes().iter().map(|x| x.y).sum::<f64>() / count
         };
         let (from, to) = (center(first), center(last));
-        let bulge = first.nodes.iter().zip(&last.nodes);
+        let bulge = first.nodes().iter().zip(last.nodes());
         let bulge = bulge.map(|(a, b)| ((b.y - to) - (a.y - from)).abs());
         let most = bulge.fold(0.0, f64::max);
         assert!(most < 1e-9, "{scheme}: {most}");

@@ -6,7 +6,8 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use scene::{Picture, Scene};
+use io::Picture;
+use scene::Scene;
 
 const BALL: &str = r#"
 title = "Everything but a picture"
@@ -275,9 +276,9 @@ fn answer(text: &str) -> bool {
                         record
                             .frames
                             .iter()
-                            .all(|f| f.nodes.iter().all(|p| p.is_finite()))
+                            .all(|f| f.nodes().iter().all(|p| p.is_finite()))
                     );
-                    assert!(record.to_json_lines().is_ok(), "{text}");
+                    assert!(record.written().to_json_lines().is_ok(), "{text}");
                     true
                 }
                 Err(error) => said(&error.to_string(), text),
@@ -343,7 +344,7 @@ fn a_scene_cut_anywhere_is_refused_or_runs() {
 
 #[test]
 fn a_picture_with_one_byte_gone_wild_is_read_or_refused() {
-    let whole = scene::paint::png(&scene::RgbImage::from_fn(9, 7, |x, y| {
+    let whole = io::paint::png(&io::RgbImage::from_fn(9, 7, |x, y| {
         image::Rgb([x.to_le_bytes()[0] * 20, y.to_le_bytes()[0] * 30, 7])
     }))
     .unwrap();

@@ -3,8 +3,8 @@
 use super::figure::DrawError;
 use super::palette::Color;
 use super::panel::Picture;
+use io::{RgbImage, paint};
 use ndarray::Array2;
-use scene::{RgbImage, paint};
 
 /// The elements of all pictures. One that appears more than once is stored once.
 pub(crate) fn all(pictures: &[(Picture, [f64; 4])]) -> Result<Vec<String>, DrawError> {

@@ -111,7 +111,7 @@ fn settled(scene: &str, factor: usize) -> Result<Vec<DVec2>, SandboxError> {
     let run = to_the_end(ID, &mut changed_scene(ID, scene, &changes)?)?;
     Ok(run
         .last()
-        .map(|frame| frame.nodes.clone())
+        .map(|frame| frame.nodes().to_vec())
         .unwrap_or_default())
 }
 

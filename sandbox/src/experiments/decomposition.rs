@@ -78,24 +78,24 @@ fn run() -> Result<Record, SandboxError> {
         ));
     };
     let snake = &scene.snake;
-    let n = frame.nodes.len();
-    let center = snake.center(&frame.nodes);
+    let n = frame.nodes().len();
+    let center = snake.center(frame.nodes());
     let mut e = vec![DVec2::ZERO; n];
-    snake.deformation_into(&frame.nodes, &mut e);
+    snake.deformation_into(frame.nodes(), &mut e);
     let rest = &snake.body().rest;
     let mass = snake.body().mass.to_vec(n);
     let total: f64 = mass.iter().sum();
     let begun = &scene.start.x;
     let origin = snake.center(begun);
     // what the picture of Figure 2.1 says, from the scene's text alone: equal masses, an ellipse
-    let mean = frame.nodes.iter().sum::<DVec2>() / real(n);
+    let mean = frame.nodes().iter().sum::<DVec2>() / real(n);
     let ellipse = |i: usize| AXES * DVec2::from_angle(TAU * real(i) / real(n));
     let (mut off, mut moved) = (0.0_f64, 0.0_f64);
     let mut sums = [DVec2::ZERO; 3];
     for i in 0..n {
-        off = off.max((frame.nodes[i] - mean - ellipse(i) - e[i]).length());
+        off = off.max((frame.nodes()[i] - mean - ellipse(i) - e[i]).length());
         moved = moved.max((begun[i] - origin - rest[i]).length());
-        let q = frame.nodes[i] - center;
+        let q = frame.nodes()[i] - center;
         for (sum, part) in sums.iter_mut().zip([q, rest[i], e[i]]) {
             *sum += part * mass[i];
         }
@@ -122,7 +122,7 @@ fn run() -> Result<Record, SandboxError> {
         "",
         tiny,
     );
-    let columns: [(&str, &[DVec2]); 3] = [("v", &frame.nodes), ("r", rest), ("e", &e)];
+    let columns: [(&str, &[DVec2]); 3] = [("v", frame.nodes()), ("r", rest), ("e", &e)];
     let mut table = Table::new("state");
     let close = Tolerance::Absolute(1e-6);
     for (name, vectors) in columns {

@@ -78,7 +78,7 @@ fn run() -> Result<Record, SandboxError> {
         let centers: Vec<glam::DVec2> = run
             .frames
             .iter()
-            .map(|frame| elastic::center(&frame.nodes, None))
+            .map(|frame| elastic::center(frame.nodes(), None))
             .collect();
         let most = centers
             .iter()
@@ -89,7 +89,7 @@ fn run() -> Result<Record, SandboxError> {
             if let Some(frame) = frame {
                 record.note(
                     format!("{name}: bend at the {when}"),
-                    bend(&frame.nodes),
+                    bend(frame.nodes()),
                     "px",
                     close,
                 );

@@ -83,10 +83,11 @@ pub(crate) const FIELD: Experiment = Experiment {
 };
 
 fn run() -> Result<Record, SandboxError> {
-    let picture = scene::Picture::shipped("apple").map_err(SandboxError::refused(ID))?;
+    let picture = scene::picture("apple").map_err(SandboxError::refused(ID))?;
     let contour = scene::contour("apple-truth")
         .map_err(SandboxError::refused(ID))?
-        .points;
+        .first()
+        .to_vec();
     let image = picture.levels();
     let report = report_force(image, REPORT_PASSES, REPORT_SCALE, REPORT_GAIN)
         .map_err(SandboxError::refused(ID))?;

@@ -230,7 +230,7 @@ fn run() -> Result<Record, SandboxError> {
         let run = to_the_end(ID, &mut scene)?;
         let curve = run
             .last()
-            .map(|frame| frame.nodes.clone())
+            .map(|frame| frame.nodes().to_vec())
             .unwrap_or_default();
         let (door, corners) = measure(&curve);
         record.note(format!("{name}: off at the door"), door, "px", close);

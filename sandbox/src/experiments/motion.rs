@@ -47,7 +47,7 @@ pub(crate) fn keep_frames(record: &mut Record, name: &'static str, run: &scene::
     let nodes = || {
         run.frames
             .iter()
-            .flat_map(|frame| frame.nodes.iter().map(move |&p| (frame.t, p)))
+            .flat_map(|frame| frame.nodes().iter().map(move |&p| (frame.t, p)))
     };
     record.keep(
         Table::raw(name)

@@ -133,7 +133,7 @@ fn run() -> Result<Record, SandboxError> {
         let Some(last) = done.frames.last() else {
             continue;
         };
-        let nodes = &last.nodes;
+        let nodes = last.nodes();
         let places: Vec<(f64, f64)> = nodes.iter().map(|&p| from_road(p)).collect();
         let arcs = places.iter().map(|p| p.1);
         let (low, high) = arcs.fold((f64::INFINITY, 0.0_f64), |(a, b), s| (a.min(s), b.max(s)));
@@ -167,7 +167,7 @@ fn run() -> Result<Record, SandboxError> {
         record.note(format!("{name}: head from the border"), head.x, "px", close);
         let mut kept = Vec::new();
         for frame in &done.frames {
-            kept.push((frame.t, 0, false, frame.nodes.clone()));
+            kept.push((frame.t, 0, false, frame.nodes().to_vec()));
         }
         keep_shots(&mut record, table, &kept);
         record.keep(
@@ -206,7 +206,7 @@ fn run() -> Result<Record, SandboxError> {
             continue;
         };
         let off = last
-            .nodes
+            .nodes()
             .iter()
             .map(|p| (p.y - 40.0).abs())
             .fold(0.0, f64::max);
@@ -216,11 +216,11 @@ fn run() -> Result<Record, SandboxError> {
             "px",
             Tolerance::Relative(0.3),
         );
-        let n = last.nodes.len();
-        let ends = last.nodes[0]
+        let n = last.nodes().len();
+        let ends = last.nodes()[0]
             .x
             .abs()
-            .max((last.nodes[n - 1].x - 95.0).abs());
+            .max((last.nodes()[n - 1].x - 95.0).abs());
         let loose = if name == "free" {
             close
         } else {
@@ -232,7 +232,7 @@ fn run() -> Result<Record, SandboxError> {
             .iter()
             .step_by(3)
             .chain(done.frames.last())
-            .map(|f| (f.t, 0, false, f.nodes.clone()))
+            .map(|f| (f.t, 0, false, f.nodes().to_vec()))
             .collect();
         keep_shots(&mut record, table, &kept);
     }

@@ -88,7 +88,7 @@ fn run() -> Result<Record, SandboxError> {
         let run = to_the_end(ID, &mut changed_scene(ID, scene, &[])?)?;
         let nodes = run
             .last()
-            .map(|frame| frame.nodes.clone())
+            .map(|frame| frame.nodes().to_vec())
             .unwrap_or_default();
         let quarter = nodes.len() / 4;
         let tail = nodes.len() - 1 - quarter;
@@ -118,7 +118,7 @@ fn run() -> Result<Record, SandboxError> {
     let mut mode = Vec::new();
     let mut e = vec![DVec2::ZERO; n];
     for frame in &run.frames {
-        snake.deformation_into(&frame.nodes, &mut e);
+        snake.deformation_into(frame.nodes(), &mut e);
         let once = e.iter().enumerate();
         let sum: f64 = once
             .map(|(i, e)| e.x * (TAU * real(i) / real(n)).cos())
@@ -129,7 +129,7 @@ fn run() -> Result<Record, SandboxError> {
     let touching = run
         .frames
         .iter()
-        .rposition(|frame| frame.nodes.iter().any(|p| p.x <= 0.0));
+        .rposition(|frame| frame.nodes().iter().any(|p| p.x <= 0.0));
     let free = touching.map_or(0.0, |i| run.frames[i].t);
     record.note("last contact", free, "s", Tolerance::Absolute(0.011));
     let body = snake.body();

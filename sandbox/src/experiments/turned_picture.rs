@@ -84,10 +84,10 @@ fn run() -> Result<Record, SandboxError> {
         let mut e = vec![DVec2::ZERO; scene.snake.body().len()];
         let (mut times, mut largest, mut distance) = (Vec::new(), Vec::new(), Vec::new());
         for frame in &done.frames {
-            scene.snake.deformation_into(&frame.nodes, &mut e);
+            scene.snake.deformation_into(frame.nodes(), &mut e);
             let now = e.iter().map(|e| e.length()).fold(0.0, f64::max);
             let far = frame
-                .nodes
+                .nodes()
                 .iter()
                 .map(|&p| off(p, frame.t).abs())
                 .fold(0.0, f64::max);
@@ -111,7 +111,7 @@ fn run() -> Result<Record, SandboxError> {
             close,
         );
         if let Some(last) = done.frames.last() {
-            let behind = RATE * last.t - scene.snake.angle(&last.nodes);
+            let behind = RATE * last.t - scene.snake.angle(last.nodes());
             let behind = behind - std::f64::consts::TAU * (behind / std::f64::consts::TAU).round();
             record.note(
                 format!("{name}: angle behind the picture"),

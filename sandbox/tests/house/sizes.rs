@@ -20,7 +20,7 @@ const LONG_TODAY: [&str; 28] = [
     "crates/elastic/tests/kernel.rs",
     "crates/field/src/sample/many.rs",
     "crates/integrator/src/adaptive.rs",
-    "crates/scene/src/build/force/mod.rs",
+    "crates/scene/src/meaning/force/mod.rs",
     "crates/scene/src/file/mod.rs",
     "crates/scene/src/scene.rs",
     "crates/scene/tests/bodies.rs",
@@ -59,7 +59,7 @@ const EXPORTS_TODAY: [(&str, usize); 8] = [
     ("field", 78),
     ("integrator", 25),
     ("outline", 38),
-    ("scene", 38),
+    ("scene", 27),
     ("snake", 55),
     ("sandbox", 47),
 ];

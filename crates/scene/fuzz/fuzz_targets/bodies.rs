@@ -4,7 +4,8 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use scene::{Contour, Fit, Picture, Scene, field};
+use io::{Picture, shapes};
+use scene::{Fit, Scene, SceneText, field};
 
 /// A refusal says something, in few words.
 fn is_short(said: &str, most: usize) {
@@ -16,9 +17,10 @@ pub fn contour(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else {
         return;
     };
-    match Contour::parse(text) {
+    match shapes::parse_one(text) {
         Ok(contour) => {
-            assert_eq!(Contour::parse(&contour.to_text()).as_ref(), Ok(&contour));
+            let again = shapes::parse_one(&shapes::to_text(std::slice::from_ref(&contour)));
+            assert!(again.is_ok_and(|again| again == contour));
             let levels = field::Grid::from_shape_fn((8, 8), |(y, x)| (x * y) as f64);
             let fit = Fit {
                 nodes: Some(12),
@@ -28,7 +30,7 @@ pub fn contour(bytes: &[u8]) {
             // some lie in this picture; most are refused
             let _ = fit.scene(Picture::from_levels(levels), &contour);
         }
-        Err(said) => is_short(&said, 400),
+        Err(said) => is_short(&said.to_string(), 400),
     }
 }
 
@@ -50,6 +52,15 @@ pub fn scene_text(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else {
         return;
     };
+    // what is read is written so that it is read again the same
+    if let Ok(read) = SceneText::parse("fuzz", text, Path::new("/nowhere")) {
+        let written = read.to_string();
+        let again = SceneText::parse("fuzz", &written, Path::new("/nowhere"));
+        assert!(
+            again.is_ok_and(|again| again.to_string() == written),
+            "{written}"
+        );
+    }
     // files that a scene names are not looked for
     match Scene::parse("fuzz", text, Path::new("/nowhere")) {
         Ok(mut scene) => {
@@ -68,6 +79,7 @@ pub fn scene_text(bytes: &[u8]) {
                 }
             });
             if let Ok(record) = record {
+                let record = record.written();
                 let _ = record.to_csv();
                 assert!(record.to_json_lines().is_ok());
             }

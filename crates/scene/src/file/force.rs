@@ -1,7 +1,7 @@
 //! `[[force]]`: one force of the world, by its kind.
 
 use serde::de::Error;
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::ProfileText;
 
@@ -13,7 +13,7 @@ pub(crate) struct ForceText {
 }
 
 /// The keys that every kind has.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct CommonText {
     pub name: Option<String>,
@@ -31,7 +31,8 @@ const COMMON: [&str; 6] = ["kind", "name", "weight", "schedule", "spin", "about"
 macro_rules! kinds {
     ($($word:literal $variant:ident($text:ty)),* $(,)?) => {
         /// Which force, with its own keys.
-        #[derive(Debug, Clone, PartialEq)]
+        #[derive(Debug, Clone, PartialEq, Serialize)]
+        #[serde(untagged)]
         pub(crate) enum KindText {
             $($variant($text)),*
         }
@@ -130,6 +131,27 @@ impl<'de> Deserialize<'de> for ForceText {
     }
 }
 
+/// The keys of a force as they are written: all in one table.
+#[derive(Serialize)]
+struct ForceLines<'a> {
+    kind: &'static str,
+    #[serde(flatten)]
+    own: &'a KindText,
+    #[serde(flatten)]
+    common: &'a CommonText,
+}
+
+impl Serialize for ForceText {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        ForceLines {
+            kind: self.kind.word(),
+            own: &self.kind,
+            common: &self.common,
+        }
+        .serialize(serializer)
+    }
+}
+
 /// All of a scene's forces; a message says which one it is about.
 pub(super) fn forces<'de, D: Deserializer<'de>>(
     deserializer: D,
@@ -149,7 +171,7 @@ pub(super) fn own_forces<'de, D: Deserializer<'de>>(
     forces(deserializer).map(Some)
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum PolarityText {
     Either,
@@ -157,7 +179,7 @@ pub(crate) enum PolarityText {
     BrightToDark,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct EdgeText {
     pub sigma: Option<f64>,
@@ -166,21 +188,21 @@ pub(crate) struct EdgeText {
 }
 
 /// A kind that needs no more than a smoothing and a strength.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct StrengthText {
     pub sigma: Option<f64>,
     pub strength: Option<f64>,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct ScalesText {
     pub sigmas: Option<Vec<f64>>,
     pub strength: Option<f64>,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct CoarseToFineText {
     pub sigmas: Option<Vec<f64>>,
@@ -189,14 +211,14 @@ pub(crate) struct CoarseToFineText {
     pub hold: Option<f64>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum ShadeText {
     Bright,
     Dark,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct LineText {
     pub sigma: Option<f64>,
@@ -204,7 +226,7 @@ pub(crate) struct LineText {
     pub shade: Option<ShadeText>,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct TerminationText {
     pub sigma: Option<f64>,
@@ -212,7 +234,7 @@ pub(crate) struct TerminationText {
     pub floor: Option<f64>,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct DistanceText {
     pub sigma: Option<f64>,
@@ -221,7 +243,7 @@ pub(crate) struct DistanceText {
     pub reach: Option<f64>,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct GvfText {
     pub sigma: Option<f64>,
@@ -232,7 +254,7 @@ pub(crate) struct GvfText {
     pub knee: Option<f64>,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct VfcText {
     pub sigma: Option<f64>,
@@ -244,7 +266,7 @@ pub(crate) struct VfcText {
     pub knee: Option<f64>,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct RegionsText {
     pub sigma: Option<f64>,
@@ -252,7 +274,7 @@ pub(crate) struct RegionsText {
     pub grey: Option<bool>,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct LocalRegionsText {
     pub sigma: Option<f64>,
@@ -261,7 +283,7 @@ pub(crate) struct LocalRegionsText {
     pub radius: Option<f64>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum DensityText {
     Histogram,
@@ -269,7 +291,7 @@ pub(crate) enum DensityText {
     Mixture,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct LikelihoodText {
     pub sigma: Option<f64>,
@@ -281,7 +303,7 @@ pub(crate) struct LikelihoodText {
     pub components: Option<usize>,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct TextureText {
     pub sigmas: Option<Vec<f64>>,
@@ -289,14 +311,14 @@ pub(crate) struct TextureText {
     pub classes: Option<usize>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum DirectionText {
     Given,
     Picture,
 }
 
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct PressureText {
     pub pressure: f64,
@@ -304,14 +326,14 @@ pub(crate) struct PressureText {
 }
 
 /// Of a gas, and of a spring towards an area.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct AreaText {
     pub pressure: f64,
     pub area: Option<f64>,
 }
 
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct SpringText {
     pub node: Option<usize>,
@@ -322,7 +344,7 @@ pub(crate) struct SpringText {
     pub damping: Option<f64>,
 }
 
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct RepulsorText {
     pub at: Option<[f64; 2]>,
@@ -331,7 +353,7 @@ pub(crate) struct RepulsorText {
     pub push: f64,
 }
 
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct FreezeText {
     pub stretch: [usize; 2],
@@ -339,7 +361,7 @@ pub(crate) struct FreezeText {
     pub damping: Option<f64>,
 }
 
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct GravityText {
     pub acceleration: [f64; 2],

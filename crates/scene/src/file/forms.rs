@@ -2,12 +2,13 @@
 //!
 //! Each looks at what is there before it decides, so that a message is about the form that was meant.
 
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{EachRule, EndWord, EndsText, OpenClosed, ParameterText, RailText, Rule};
 
 /// A number, one number a node, or points along the curve.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub(crate) enum ProfileText {
     Uniform(f64),
     PerNode(Vec<f64>),
@@ -51,13 +52,14 @@ pub(super) fn shown(given: &toml::Value) -> String {
 }
 
 /// `{ along = [[s, value], …] }`: straight between points, `s` from 0 (first node) to 1 (last).
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Along {
     pub along: Vec<[f64; 2]>,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub(crate) enum RulesText {
     All(Rule),
     Each(Box<EachRule>),
@@ -83,7 +85,8 @@ impl Default for RulesText {
     }
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub(crate) enum TopologyText {
     Word(OpenClosed),
     Ends(EndsText),
@@ -104,7 +107,8 @@ impl<'de> Deserialize<'de> for TopologyText {
 }
 
 /// An end: a word, or the line that it slides along.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub(crate) enum EndText {
     Word(EndWord),
     Rail(RailText),
@@ -125,7 +129,8 @@ impl<'de> Deserialize<'de> for EndText {
 }
 
 /// Damping: a profile, or the word for a rule that chooses it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub(crate) enum DampingText {
     Given(ParameterText),
     Rule(String),
@@ -141,7 +146,8 @@ impl<'de> Deserialize<'de> for DampingText {
 }
 
 /// Internal damping: a time, or the word for a rule that chooses it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub(crate) enum InternalText {
     Given(f64),
     Rule(String),
@@ -159,13 +165,14 @@ impl<'de> Deserialize<'de> for InternalText {
 }
 
 /// The body frame: a word, or the inertial forces that its equations have.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub(crate) enum FrameText {
     Word(FrameWord),
     Terms(TermsText),
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum FrameWord {
     /// It moves with the body and keeps its direction.
@@ -174,13 +181,13 @@ pub(crate) enum FrameWord {
     Turning,
 }
 
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TermsText {
     pub terms: Vec<TermText>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum TermText {
     Centrifugal,
@@ -234,6 +241,58 @@ impl<'de> Deserialize<'de> for OutputText {
             toml::Value::String(word) if word == "every" => Ok(Self::Every),
             toml::Value::Integer(value) => inner(toml::Value::Integer(value)).map(Self::Time),
             other => Err(wrong("a number above 0 or \"every\"", &other)),
+        }
+    }
+}
+
+impl Serialize for StepText {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Fixed(dt) => serializer.serialize_f64(*dt),
+            Self::Auto => serializer.serialize_str("auto"),
+        }
+    }
+}
+
+impl Serialize for OutputText {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Time(time) => serializer.serialize_f64(*time),
+            Self::Every => serializer.serialize_str("every"),
+        }
+    }
+}
+
+/// How many nodes: their number, or their distance along the curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum NodesText {
+    Count(usize),
+    /// Pixels.
+    Apart(f64),
+}
+
+impl<'de> Deserialize<'de> for NodesText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = toml::Value::deserialize(deserializer)?;
+        let toml::Value::String(text) = &value else {
+            return inner(value).map(Self::Count);
+        };
+        let number = ["pixels", "pixel", "px"].iter().find_map(|unit| {
+            let number = text.trim().strip_suffix(unit)?.trim_end();
+            number.parse::<f64>().ok()
+        });
+        number.map(Self::Apart).ok_or_else(|| {
+            let wanted = "a number of nodes, or the distance between two in pixels, as \"4 px\"";
+            wrong(wanted, &value)
+        })
+    }
+}
+
+impl Serialize for NodesText {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Count(count) => count.serialize(serializer),
+            Self::Apart(distance) => serializer.serialize_str(&format!("{distance} px")),
         }
     }
 }

@@ -1,9 +1,9 @@
 //! The text of a parameter that the picture has a say in.
 
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::ProfileText;
 use super::forms::{inner, shown};
+use super::{ProfileText, usual};
 
 /// A profile, and the map it is multiplied with, if there is one.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,7 +13,7 @@ pub(crate) struct ParameterText {
 }
 
 /// What a share of 0 and of 1 mean, and where shares come from.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct MapText {
     pub map: SourceText,
@@ -32,13 +32,13 @@ pub(crate) enum SourceText {
     File(String),
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct SigmaText {
     pub sigma: Option<f64>,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct AwayText {
     pub sigma: Option<f64>,
@@ -126,5 +126,52 @@ impl<'de> Deserialize<'de> for ParameterText {
         };
         let profile = inner(given)?;
         Ok(Self { profile, map })
+    }
+}
+
+/// A source whose keys are given.
+#[derive(Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum Given<'a> {
+    Edge(&'a SigmaText),
+    Contrast(&'a SigmaText),
+    Distance(&'a AwayText),
+    File(&'a str),
+}
+
+impl Serialize for SourceText {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Grey => serializer.serialize_str("grey"),
+            Self::Edge(text) if usual(text) => serializer.serialize_str("edge"),
+            Self::Contrast(text) if usual(text) => serializer.serialize_str("contrast"),
+            Self::Distance(text) if usual(text) => serializer.serialize_str("distance"),
+            Self::Edge(text) => Given::Edge(text).serialize(serializer),
+            Self::Contrast(text) => Given::Contrast(text).serialize(serializer),
+            Self::Distance(text) => Given::Distance(text).serialize(serializer),
+            Self::File(file) => Given::File(file).serialize(serializer),
+        }
+    }
+}
+
+/// A parameter with a map as it is written: all in one table.
+#[derive(Serialize)]
+struct ParameterLines<'a> {
+    value: Option<&'a ProfileText>,
+    along: Option<&'a [[f64; 2]]>,
+    #[serde(flatten)]
+    map: &'a MapText,
+}
+
+impl Serialize for ParameterText {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Some(map) = &self.map else {
+            return self.profile.serialize(serializer);
+        };
+        let (value, along) = match &self.profile {
+            ProfileText::Along(along) => (None, Some(&along.along[..])),
+            profile => (Some(profile), None),
+        };
+        ParameterLines { value, along, map }.serialize(serializer)
     }
 }

@@ -1,7 +1,8 @@
-//! The text of a scene, exactly as written: the types that serde fills.
+//! The text of a scene, exactly as written: the types that serde fills and writes. What is not
+//! given, or given as what stands for it anyway, is not written.
 //!
 //! Every key that may be left out is an `Option` or has its default here; what the values mean is
-//! decided in `build`. `docs/formats.md` explains the format by example.
+//! decided in `meaning`. `docs/formats.md` explains the format by example.
 
 mod company;
 mod force;
@@ -9,18 +10,18 @@ mod forms;
 mod hand;
 mod map;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 pub(crate) use company::{AlsoText, ContactText, UpkeepText};
 pub(crate) use force::*;
 pub(crate) use forms::{
-    DampingText, EndText, FrameText, FrameWord, InternalText, OutputText, ProfileText, RulesText,
-    StepText, TermText, TopologyText,
+    DampingText, EndText, FrameText, FrameWord, InternalText, NodesText, OutputText, ProfileText,
+    RulesText, StepText, TermText, TopologyText,
 };
 pub(crate) use hand::HandText;
 pub(crate) use map::{AwayText, MapText, ParameterText, SourceText};
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct SceneText {
     /// Version of the format; 1 when not given.
@@ -31,20 +32,24 @@ pub(crate) struct SceneText {
     pub report: Option<String>,
     #[serde(default)]
     pub note: Option<String>,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub rules: RulesText,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub view: ViewText,
     #[serde(default)]
     pub picture: Option<PictureText>,
     #[serde(default)]
     pub field: Option<FieldText>,
-    #[serde(default, deserialize_with = "force::forces")]
+    #[serde(
+        default,
+        deserialize_with = "force::forces",
+        skip_serializing_if = "Vec::is_empty"
+    )]
     pub force: Vec<ForceText>,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub hand: Vec<HandText>,
     pub snake: SnakeText,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub also: Vec<AlsoText>,
     #[serde(default)]
     pub contact: Option<ContactText>,
@@ -53,26 +58,26 @@ pub(crate) struct SceneText {
     pub tips: Option<TipsText>,
     pub material: MaterialText,
     pub densities: DensitiesText,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub schedule: ScheduleText,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub maps: MapsText,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub world: WorldText,
     pub run: RunText,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub record: RecordText,
 }
 
 /// Whose rules: the report's program, or ours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Rule {
     Report,
     Corrected,
 }
 
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct EachRule {
     pub all: Option<Rule>,
@@ -88,7 +93,7 @@ pub(crate) struct EachRule {
 }
 
 /// How a drawing should look at the scene.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct ViewText {
     /// "down" (pictures) or "up" (chapter 2).
@@ -97,14 +102,14 @@ pub(crate) struct ViewText {
     pub window: Option<[f64; 4]>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum UpDown {
     Up,
     Down,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct PictureText {
     /// A file beside the scene.
@@ -119,7 +124,7 @@ pub(crate) struct PictureText {
     pub invalid: Option<InvalidText>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum InvalidText {
     /// The picture is refused.
@@ -128,19 +133,19 @@ pub(crate) enum InvalidText {
     Mask,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct DrawnText {
     pub size: [usize; 2],
-    #[serde(default = "sixty")]
+    #[serde(default = "sixty", skip_serializing_if = "is_sixty")]
     pub background: f64,
-    #[serde(default = "two_hundred")]
+    #[serde(default = "two_hundred", skip_serializing_if = "is_two_hundred")]
     pub foreground: f64,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub blur: f64,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub noise: f64,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub seed: u64,
     pub region: RegionText,
 }
@@ -149,11 +154,29 @@ fn sixty() -> f64 {
     60.0
 }
 
+fn is_sixty(value: &f64) -> bool {
+    is(*value, sixty())
+}
+
 fn two_hundred() -> f64 {
     200.0
 }
 
-#[derive(Debug, Clone, Deserialize)]
+fn is_two_hundred(value: &f64) -> bool {
+    is(*value, two_hundred())
+}
+
+/// Whether a value is what stands for it when it is not given, and so need not be written.
+fn usual<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+/// The same number, to the bit.
+const fn is(value: f64, other: f64) -> bool {
+    value.to_bits() == other.to_bits()
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) enum RegionText {
     /// Everything right of x.
@@ -168,7 +191,7 @@ pub(crate) enum RegionText {
 }
 
 /// What is no farther than half a width from a polyline.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct RoadText {
     pub points: Vec<[f64; 2]>,
@@ -176,14 +199,14 @@ pub(crate) struct RoadText {
 }
 
 /// Whether a field is made where a curve goes, or as a whole.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum ComputedText {
     Lazy,
     Whole,
 }
 
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct FieldText {
     pub computed: Option<ComputedText>,
@@ -195,23 +218,23 @@ pub(crate) struct FieldText {
     pub weight: Option<ProfileText>,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct CircleText {
     pub center: [f64; 2],
     pub radius: f64,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct EllipseText {
     pub center: [f64; 2],
     pub axes: [f64; 2],
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub angle: f64,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct SegmentText {
     pub from: [f64; 2],
@@ -219,7 +242,7 @@ pub(crate) struct SegmentText {
 }
 
 /// A curve, before it has nodes.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) enum ShapeText {
     Circle(CircleText),
@@ -235,7 +258,7 @@ pub(crate) enum ShapeText {
     Shipped(String),
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum EndWord {
     Free,
@@ -247,14 +270,14 @@ pub(crate) enum EndWord {
 }
 
 /// A free end that slides along a line.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RailText {
     pub rail: Vec<[f64; 2]>,
 }
 
 /// Ends that grow.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct TipsText {
     pub ends: Option<TipsWord>,
@@ -265,7 +288,7 @@ pub(crate) struct TipsText {
     pub most: Option<usize>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum TipsWord {
     Both,
@@ -273,55 +296,55 @@ pub(crate) enum TipsWord {
     Tail,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum OpenClosed {
     Open,
     Closed,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct EndsText {
     pub head: EndText,
     pub tail: EndText,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct SnakeText {
-    pub nodes: Option<usize>,
+    pub nodes: Option<NodesText>,
     pub topology: TopologyText,
     pub start: ShapeText,
     #[serde(default)]
     pub rest: Option<ShapeText>,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub velocity: [f64; 2],
     /// Angular velocity about the center, radians per unit of time, from +x towards +y.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub spin: f64,
     /// What the deformation is measured in.
     pub frame: Option<FrameText>,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct MaterialText {
     pub tether: ParameterText,
     pub tension: ParameterText,
     pub rigidity: ParameterText,
     /// Nodes at which the rigidity is 0.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub corners: Vec<usize>,
     /// Nodes after which the curve may part.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub breaks: Vec<usize>,
     /// Weights of the orders 3, 4 and on.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub higher: Vec<ProfileText>,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct DensitiesText {
     pub mass: ParameterText,
@@ -331,7 +354,7 @@ pub(crate) struct DensitiesText {
 }
 
 /// `[[time, factor], …]` for each parameter.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct ScheduleText {
     pub tether: Option<Vec<[f64; 2]>>,
@@ -343,27 +366,27 @@ pub(crate) struct ScheduleText {
 }
 
 /// How often maps are looked at.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct MapsText {
     /// Time between two looks; 0: at every step.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub every: f64,
 }
 
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct WorldText {
     #[serde(default)]
     pub gravity: Option<[f64; 2]>,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub wall: Vec<WallText>,
     /// What happens at the borders of the picture.
     #[serde(default)]
     pub border: Option<BorderText>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum BorderText {
     /// Nothing: nodes may leave.
@@ -374,7 +397,7 @@ pub(crate) enum BorderText {
     Stop,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct WallText {
     pub point: [f64; 2],
@@ -382,7 +405,7 @@ pub(crate) struct WallText {
     pub law: LawText,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) enum LawText {
     Clamp,
@@ -390,33 +413,33 @@ pub(crate) enum LawText {
     Impact(ImpactText),
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct PenaltyText {
     pub stiffness: f64,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub damping: f64,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct ImpactText {
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub restitution: f64,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub friction: f64,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct RestText {
     pub balance: Option<f64>,
     pub travel: Option<f64>,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub shape: bool,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct RunText {
     #[serde(default)]
@@ -435,17 +458,17 @@ pub(crate) struct RunText {
     #[serde(default)]
     pub rest: Option<RestText>,
     /// Run although the step is beyond the limit.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub force: bool,
 }
 
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct RecordText {
     pub every: Option<u64>,
     pub steps: Option<Vec<u64>>,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub velocities: bool,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "usual")]
     pub energies: bool,
 }

@@ -22,7 +22,7 @@ pub enum Edit {
     /// A parameter that is the same all along the curve.
     Set(Parameter, f64),
     /// Another body of as many nodes.
-    Body(Body),
+    Body(Box<Body>),
     /// Another rest shape of as many nodes.
     Rest(Vec<DVec2>),
     /// Another world: other forces and walls, as of the next picture of a sequence.
@@ -56,7 +56,7 @@ impl Simulation {
                 body.set(parameter, Profile::Uniform(value))?;
                 snake.set_body(body)?;
             }
-            Edit::Body(body) => snake.set_body(body)?,
+            Edit::Body(body) => snake.set_body(*body)?,
             Edit::Rest(rest) => snake.set_rest(rest)?,
             Edit::World(world) => snake.set_world(world)?,
         }

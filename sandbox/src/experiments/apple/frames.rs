@@ -64,7 +64,7 @@ pub(crate) const FIRST: Experiment = Experiment {
             .frames
             .iter()
             .filter(|frame| (16.0..=120.0).contains(&frame.t))
-            .map(|frame| top(&frame.nodes).y)
+            .map(|frame| top(frame.nodes()).y)
             .collect();
         let (low, high) = crate::experiments::motion::range(heights, 0.0);
         record.note("top: highest from t = 16 to 120", low, "px", PLACE);
@@ -213,7 +213,7 @@ pub(crate) const SECOND: Experiment = Experiment {
             .frames
             .iter()
             .filter(|f| f.t > 30.0)
-            .map(|f| top(&f.nodes).y)
+            .map(|f| top(f.nodes()).y)
             .collect();
         let fall = tops
             .windows(3)

@@ -63,7 +63,7 @@ fn run() -> Result<Record, SandboxError> {
         .run
         .frames
         .iter()
-        .map(|frame| story.truth.stuck(&frame.nodes))
+        .map(|frame| story.truth.stuck(frame.nodes()))
         .collect();
     let arrival = |node: usize| {
         let away = stays.iter().rposition(|stuck| !stuck[node]);

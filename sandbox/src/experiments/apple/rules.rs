@@ -143,7 +143,7 @@ fn run() -> Result<Record, SandboxError> {
             .run
             .frames
             .iter()
-            .map(|frame| top(&frame.nodes).y)
+            .map(|frame| top(frame.nodes()).y)
             .collect();
         let times = story.run.frames.iter().map(|frame| frame.t).collect();
         if index == 0 {

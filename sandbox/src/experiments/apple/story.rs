@@ -23,7 +23,7 @@ impl Truth {
     pub(crate) fn apple(id: &'static str) -> Result<Self, SandboxError> {
         let contour = scene::contour("apple-truth").map_err(SandboxError::refused(id))?;
         Ok(Self {
-            contour: contour.points,
+            contour: contour.first().to_vec(),
             boxes: &scene::APPLE_DISTURBING,
             near: 4.0,
         })
@@ -117,12 +117,12 @@ impl Story {
             .frames
             .iter()
             .min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        frame.map_or(&[], |frame| &frame.nodes)
+        frame.map_or(&[], |frame| frame.nodes())
     }
 
     /// The nodes at the end.
     pub(crate) fn last(&self) -> &[DVec2] {
-        self.run.last().map_or(&[], |frame| &frame.nodes)
+        self.run.last().map_or(&[], |frame| frame.nodes())
     }
 
     /// The picture's and the elastic force on every node.
@@ -163,7 +163,7 @@ impl Story {
             let Some(step) = step else { continue };
             let frames: Vec<&scene::Frame> = self.run.frames.iter().step_by(step).collect();
             let pick = |value: &dyn Fn(&[DVec2]) -> f64| -> Vec<f64> {
-                frames.iter().map(|frame| value(&frame.nodes)).collect()
+                frames.iter().map(|frame| value(frame.nodes())).collect()
             };
             let some = Tolerance::Absolute(0.03); // a node or two at the border of being stuck
             record.keep(

@@ -226,13 +226,13 @@ fn run_friction() -> Result<Record, SandboxError> {
         course::sum_up(&mut record, &format!("{name}: "), &course);
         let end = run
             .last()
-            .map(|frame| frame.nodes.clone())
+            .map(|frame| frame.nodes().to_vec())
             .unwrap_or_default();
         let (low, high) = range(end.iter().map(|p| p.y), 0.0);
         record.note(format!("{name}: height at the end"), high - low, "", STEPS);
         keep_frames(&mut record, table, &run);
         let tall = |frame: &scene::Frame| {
-            let (low, high) = range(frame.nodes.iter().map(|p| p.y), 0.0);
+            let (low, high) = range(frame.nodes().iter().map(|p| p.y), 0.0);
             high - low
         };
         if heights.columns.is_empty() {

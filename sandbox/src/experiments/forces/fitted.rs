@@ -7,7 +7,8 @@ use crate::demand::{below, judged};
 use crate::draw::{Color, Figure, Line, Panel, Picture};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
 use glam::DVec2;
-use scene::{Contour, Fit, ForceChoice};
+use io::shapes::Shape;
+use scene::{Fit, ForceChoice};
 use snake::Outcome;
 
 const ID: &str = "sec-4-2-fit";
@@ -148,11 +149,8 @@ fn run() -> Result<Record, SandboxError> {
                 forces: if kind == KINDS[0] { Vec::new() } else { forces },
                 ..Fit::default()
             };
-            let contour = Contour {
-                points: start.clone(),
-                closed: Some(true),
-            };
-            let picture = scene::Picture::from_levels(image.clone());
+            let contour = Shape::curve(start.clone(), Some(true));
+            let picture = io::Picture::from_levels(image.clone());
             let scene = fit
                 .scene(picture, &contour)
                 .map_err(SandboxError::refused(ID))?;
@@ -162,7 +160,7 @@ fn run() -> Result<Record, SandboxError> {
             let x = found
                 .frames
                 .last()
-                .map(|frame| frame.nodes.clone())
+                .map(|frame| frame.nodes().to_vec())
                 .unwrap_or_default();
             record.note(
                 format!("{}, {words}: mean distance of the outline", label(kind)),

@@ -275,7 +275,7 @@ fn run() -> Result<Record, SandboxError> {
     let mut record = Record::default();
     let no = || SandboxError::refused::<FieldError>(ID);
     let u = u_shape(ID)?;
-    let apple = scene::Picture::shipped("apple").map_err(SandboxError::refused(ID))?;
+    let apple = scene::picture("apple").map_err(SandboxError::refused(ID))?;
     let apple = shrunk(apple.levels(), SMALL);
     for (name, make) in KINDS {
         for (picture, image) in [("U", &u), ("apple", &apple)] {
@@ -327,7 +327,7 @@ fn run() -> Result<Record, SandboxError> {
 
 /// Direction as hue and the root of the strength as saturation; few enough colors for a small file.
 fn wheel(fx: &Grid, fy: &Grid) -> Array2<Color> {
-    let image = scene::paint::wheel(fx, fy);
+    let image = io::paint::wheel(fx, fy);
     let few = |level: u8| if level > 240 { 255 } else { level / 28 * 28 };
     Array2::from_shape_fn(fx.dim(), |(row, column)| {
         let [x, y] = [column, row].map(|place| u32::try_from(place).unwrap_or(0));

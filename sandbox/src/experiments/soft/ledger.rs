@@ -173,9 +173,9 @@ impl Account {
         let mut most = 0.0_f64;
         for ((_, row), frame) in rows.iter().zip(&run.frames) {
             let mut each = 64.0 * row.iter().map(|value| value.abs()).sum::<f64>();
-            let velocities = frame.velocities.iter().flatten();
+            let velocities = frame.velocities().into_iter().flatten();
             for (i, (x, v)) in frame
-                .nodes
+                .nodes()
                 .iter()
                 .zip(velocities)
                 .enumerate()

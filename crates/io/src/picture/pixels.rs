@@ -1,0 +1,416 @@
+//! Pixels as a file held them, and what can be said of them without turning all into doubles.
+//!
+//! Long because every depth and sign of level has its own arm, and all stand side by side.
+
+use std::sync::Arc;
+
+use field::{EdgeForce, FieldError, ForceField, Grid, Recipe, lazy_force};
+use image::metadata::Orientation;
+use image::{ImageBuffer, Luma, Rgb, Rgb32FImage, RgbImage, buffer::ConvertBuffer as _};
+use ndarray::{ArcArray2, Array2};
+
+use super::as_u32;
+use super::decode::{is_grey, upright};
+
+/// Grey levels from 0 to 255 in sixteen bits: as far as one goes.
+const WORDS_A_LEVEL: f64 = 257.0;
+
+/// The level of white, which is 1 in floats.
+const WHITE: f64 = 255.0;
+
+/// The pixels of a picture, of the depth that the file has.
+#[derive(Debug, Clone)]
+pub(super) enum Pixels {
+    /// Grey of eight bits.
+    Bytes(ArcArray2<u8>),
+    /// Grey of sixteen bits.
+    Words(ArcArray2<u16>),
+    /// Grey of sixteen bits with a sign.
+    Signed(ArcArray2<i16>),
+    /// Grey from 0 to 1 in floats, all finite.
+    Floats(ArcArray2<f32>),
+    /// Colors of eight bits.
+    Colors(Arc<RgbImage>),
+    /// Colors of sixteen bits.
+    DeepColors(Arc<ImageBuffer<Rgb<u16>, Vec<u16>>>),
+    /// Colors from 0 to 1 in floats, all finite.
+    FloatColors(Arc<Rgb32FImage>),
+    /// Levels in doubles, kept beside.
+    Levels,
+}
+
+/// Grey in three channels is that grey exactly, as in one.
+pub(super) fn luma([r, g, b]: [f64; 3]) -> f64 {
+    if r.to_bits() == g.to_bits() && g.to_bits() == b.to_bits() {
+        r
+    } else {
+        0.299 * r + 0.587 * g + 0.114 * b
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounding to f32 is the point"
+)]
+fn narrow(level: f64) -> f32 {
+    level as f32
+}
+
+/// Runs `$body` with the levels of every pixel, row by row, as an iterator that can be begun again.
+macro_rules! with_levels {
+    ($pixels:expr, $levels:ident, $body:expr) => {
+        match $pixels {
+            Pixels::Bytes(list) => {
+                let $levels = || list.iter().map(|&v| f64::from(v));
+                Some($body)
+            }
+            Pixels::Words(list) => {
+                let $levels = || list.iter().map(|&v| f64::from(v) / WORDS_A_LEVEL);
+                Some($body)
+            }
+            Pixels::Signed(list) => {
+                let $levels = || list.iter().map(|&v| f64::from(v) / WORDS_A_LEVEL);
+                Some($body)
+            }
+            Pixels::Floats(list) => {
+                let $levels = || list.iter().map(|&v| f64::from(v) * WHITE);
+                Some($body)
+            }
+            Pixels::Colors(list) => {
+                let $levels = || list.pixels().map(|p| luma(p.0.map(f64::from)));
+                Some($body)
+            }
+            Pixels::DeepColors(list) => {
+                let level = |v: u16| f64::from(v) / WORDS_A_LEVEL;
+                let $levels = || list.pixels().map(|p| luma(p.0.map(level)));
+                Some($body)
+            }
+            Pixels::FloatColors(list) => {
+                let level = |v: f32| f64::from(v) * WHITE;
+                let $levels = || list.pixels().map(|p| luma(p.0.map(level)));
+                Some($body)
+            }
+            Pixels::Levels => None,
+        }
+    };
+}
+
+impl Pixels {
+    /// Width and height; None if they are those of levels kept beside.
+    pub(super) fn size(&self) -> Option<(usize, usize)> {
+        let of = |(height, width): (usize, usize)| Some((width, height));
+        match self {
+            Self::Bytes(list) => of(list.dim()),
+            Self::Words(list) => of(list.dim()),
+            Self::Signed(list) => of(list.dim()),
+            Self::Floats(list) => of(list.dim()),
+            Self::Colors(list) => Some((list.width() as usize, list.height() as usize)),
+            Self::DeepColors(list) => Some((list.width() as usize, list.height() as usize)),
+            Self::FloatColors(list) => Some((list.width() as usize, list.height() as usize)),
+            Self::Levels => None,
+        }
+    }
+
+    /// Whether some pixel is of more than grey.
+    pub(super) fn has_color(&self) -> bool {
+        match self {
+            Self::Colors(list) => !list.pixels().all(|p| is_grey(p.0)),
+            Self::DeepColors(list) => !list.pixels().all(|p| is_grey(p.0)),
+            Self::FloatColors(list) => !list.pixels().all(|p| is_grey(p.0.map(f32::to_bits))),
+            _ => false,
+        }
+    }
+
+    /// Whether each pixel or channel is of eight bits, so that it can be shown as it is.
+    pub(super) const fn is_shallow(&self) -> bool {
+        matches!(self, Self::Bytes(_) | Self::Colors(_) | Self::Levels)
+    }
+
+    /// The same as it is looked at; colors have been turned already.
+    pub(super) fn turned(self, orientation: Orientation) -> Self {
+        match self {
+            Self::Bytes(list) => Self::Bytes(upright(list.into_owned(), orientation).into_shared()),
+            Self::Words(list) => Self::Words(upright(list.into_owned(), orientation).into_shared()),
+            Self::Signed(list) => {
+                Self::Signed(upright(list.into_owned(), orientation).into_shared())
+            }
+            Self::Floats(list) => {
+                Self::Floats(upright(list.into_owned(), orientation).into_shared())
+            }
+            other => other,
+        }
+    }
+
+    /// Grey levels, 0 … 255; None if they are kept beside.
+    pub(super) fn levels(&self) -> Option<Grid> {
+        let (width, height) = self.size()?;
+        let list: Vec<f64> = with_levels!(self, levels, levels().collect())?;
+        Grid::from_shape_vec((height, width), list).ok()
+    }
+
+    /// One channel of colors, 0 … 255; None if there is but grey.
+    pub(super) fn channel(&self, c: usize) -> Option<Grid> {
+        let (width, height) = self.size()?;
+        let list: Vec<f64> = match self {
+            Self::Colors(list) => list.pixels().map(|p| f64::from(p.0[c])).collect(),
+            Self::DeepColors(list) => {
+                let level = |v: u16| f64::from(f32::from(v) / 257.0);
+                list.pixels().map(|p| level(p.0[c])).collect()
+            }
+            Self::FloatColors(list) => {
+                let level = |v: f32| {
+                    let level = v * 255.0;
+                    let near = level.is_finite();
+                    if near {
+                        f64::from(level)
+                    } else {
+                        f64::from(v) * WHITE
+                    }
+                };
+                list.pixels().map(|p| level(p.0[c])).collect()
+            }
+            _ => return None,
+        };
+        Grid::from_shape_vec((height, width), list).ok()
+    }
+
+    /// Whether every channel is the same everywhere.
+    pub(super) fn is_constant(&self) -> bool {
+        fn same<P>(image: &ImageBuffer<P, Vec<P::Subpixel>>) -> bool
+        where
+            P: image::Pixel + PartialEq,
+        {
+            let mut all = image.pixels();
+            let first = all.next();
+            all.all(|p| Some(p) == first)
+        }
+        match self {
+            Self::Colors(list) => same(list),
+            Self::DeepColors(list) => same(list),
+            Self::FloatColors(list) => same(list),
+            _ => with_levels!(self, levels, spread(levels) <= 0.0).unwrap_or(false),
+        }
+    }
+
+    /// As a person sees them, if that is what they are: of eight bits a pixel or channel.
+    pub(super) fn display(&self) -> Option<RgbImage> {
+        match self {
+            Self::Bytes(bytes) => shown(bytes),
+            Self::Colors(colors) => Some(RgbImage::clone(colors)),
+            _ => None,
+        }
+    }
+
+    /// As a person sees them, black at the level `low` and white at `high`; None if they are kept beside.
+    pub(super) fn stretched(&self, low: f64, high: f64) -> Option<RgbImage> {
+        let (width, height) = self.size()?;
+        let byte = |level: f64| crate::paint::byte(WHITE * (level - low) / (high - low));
+        let bytes: Vec<u8> = match self {
+            Self::DeepColors(list) => list
+                .iter()
+                .map(|&v| byte(f64::from(v) / WORDS_A_LEVEL))
+                .collect(),
+            Self::FloatColors(list) => list.iter().map(|&v| byte(f64::from(v) * WHITE)).collect(),
+            _ => with_levels!(self, levels, {
+                levels().flat_map(|level| [byte(level); 3]).collect()
+            })?,
+        };
+        RgbImage::from_raw(as_u32(width), as_u32(height), bytes)
+    }
+
+    /// The lazy edge force of their levels; None if those are kept beside.
+    pub(super) fn lazy_edge_force(
+        &self,
+        rule: &EdgeForce,
+    ) -> Option<Result<ForceField, FieldError>> {
+        match self {
+            Self::Bytes(bytes) => Some(lazy_force(bytes.clone(), &Recipe::Edge(*rule))),
+            Self::Words(words) => {
+                let gain = rule.gain / WORDS_A_LEVEL;
+                let rule = EdgeForce { gain, ..*rule };
+                Some(lazy_force(words.clone(), &Recipe::Edge(rule)))
+            }
+            _ => {
+                let (width, height) = self.size()?;
+                let grey: Vec<f32> = with_levels!(self, levels, levels().map(narrow).collect())?;
+                let grey = Array2::from_shape_vec((height, width), grey).ok()?;
+                Some(lazy_force(grey, &Recipe::Edge(*rule)))
+            }
+        }
+    }
+
+    /// The largest level there may be, either way; None if they are kept beside.
+    pub(super) fn largest(&self) -> Option<f64> {
+        match self {
+            Self::Floats(_) | Self::FloatColors(_) => {
+                with_levels!(
+                    self,
+                    levels,
+                    levels().fold(0.0, |most: f64, v| most.max(v.abs()))
+                )
+            }
+            Self::Levels => None,
+            _ => Some(WHITE),
+        }
+    }
+
+    /// [`limits_of`] their levels; None if those are kept beside.
+    pub(super) fn limits(&self) -> Option<[f64; 4]> {
+        match self {
+            Self::Bytes(bytes) => {
+                let mut counts = vec![0; 1 << 8];
+                bytes.iter().for_each(|&v| counts[usize::from(v)] += 1);
+                Some(limits_of_counts(&counts, 1.0))
+            }
+            Self::Words(words) => {
+                let mut counts = vec![0; 1 << 16];
+                words.iter().for_each(|&v| counts[usize::from(v)] += 1);
+                Some(limits_of_counts(&counts, WORDS_A_LEVEL))
+            }
+            _ => with_levels!(self, levels, limits_of(levels)),
+        }
+    }
+}
+
+/// [`Pixels::lazy_edge_force`] of levels.
+pub(super) fn lazy_edge_force_of(
+    levels: &Grid,
+    rule: &EdgeForce,
+) -> Result<ForceField, FieldError> {
+    lazy_force(levels.mapv(narrow), &Recipe::Edge(*rule))
+}
+
+fn shown(grey: &ArcArray2<u8>) -> Option<RgbImage> {
+    let (height, width) = grey.dim();
+    let pixels = grey.as_slice()?;
+    let grey = ImageBuffer::<Luma<u8>, _>::from_raw(as_u32(width), as_u32(height), pixels)?;
+    Some(grey.convert())
+}
+
+/// The least, the 2nd and the 98th percentile, and the largest, in this order; zeros where there is none.
+pub(super) fn limits_of<I: Iterator<Item = f64>>(values: impl Fn() -> I) -> [f64; 4] {
+    let mut n = 0;
+    let (mut least, mut largest) = (None, None);
+    for value in values() {
+        n += 1;
+        let below = |other: &f64| value.total_cmp(other).is_lt();
+        if least.as_ref().is_none_or(below) {
+            least = Some(value);
+        }
+        let above = |other: &f64| value.total_cmp(other).is_gt();
+        if largest.as_ref().is_none_or(above) {
+            largest = Some(value);
+        }
+    }
+    let (Some(least), Some(largest)) = (least, largest) else {
+        return [0.0; 4];
+    };
+    let rank = |part: usize| (n - 1) * part / 100;
+    let [low, high] = at_ranks(&values, [rank(2), rank(98)]);
+    [least, low, high, largest]
+}
+
+/// Bits that are told apart at a time.
+const DIGIT: u32 = 16;
+
+/// The values that stand at these ranks in order, found digit by digit: by counting, without a copy of the values.
+fn at_ranks<I: Iterator<Item = f64>>(values: impl Fn() -> I, mut ranks: [usize; 2]) -> [f64; 2] {
+    // numbers whose order is that of `f64::total_cmp`
+    let key = |value: f64| {
+        let bits = value.to_bits();
+        if bits >> 63 == 1 {
+            !bits
+        } else {
+            bits | (1 << 63)
+        }
+    };
+    let mut known = [0_u64; 2];
+    for shift in (0..64 / DIGIT).rev().map(|place| place * DIGIT) {
+        let mut counts = [vec![0_usize; 1 << DIGIT], vec![0_usize; 1 << DIGIT]];
+        for key in values().map(key) {
+            // those that begin as the one that is looked for
+            let begin = key.checked_shr(shift + DIGIT).unwrap_or(0);
+            #[expect(clippy::cast_possible_truncation, reason = "one digit of 16 bits")]
+            let digit = (key >> shift) as u16;
+            for (known, counts) in known.iter().zip(&mut counts) {
+                if begin == *known {
+                    counts[usize::from(digit)] += 1;
+                }
+            }
+        }
+        for ((known, rank), counts) in known.iter_mut().zip(&mut ranks).zip(&counts) {
+            let mut digit = 0_u64;
+            for &count in counts {
+                if *rank < count {
+                    break;
+                }
+                *rank -= count;
+                digit += 1;
+            }
+            *known = (*known << DIGIT) | digit;
+        }
+    }
+    known.map(|key| {
+        let bits = if key >> 63 == 1 {
+            key & !(1 << 63)
+        } else {
+            !key
+        };
+        f64::from_bits(bits)
+    })
+}
+
+/// [`limits_of`] values that occur so often, so many to a level.
+fn limits_of_counts(counts: &[usize], values: f64) -> [f64; 4] {
+    let n: usize = counts.iter().sum();
+    [0, 2, 98, 100].map(|part| {
+        let rank = n.saturating_sub(1) * part / 100;
+        let mut below = 0;
+        let value = counts.iter().position(|&count| {
+            below += count;
+            below > rank
+        });
+        value.unwrap_or(0) as f64 / values
+    })
+}
+
+/// From the 2nd to the 98th percentile, or where these are one, from the least to the largest; 0 for a constant.
+pub(super) fn spread_of([least, low, high, largest]: [f64; 4]) -> f64 {
+    // less than the rounding of colors to grey leaves
+    if largest - least <= 1e-12 * least.abs().max(largest.abs()) {
+        return 0.0;
+    }
+    if high > low {
+        high - low
+    } else {
+        largest - least
+    }
+}
+
+/// [`spread_of`] values.
+pub(super) fn spread<I: Iterator<Item = f64>>(values: impl Fn() -> I) -> f64 {
+    spread_of(limits_of(values))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn ranks_are_those_of_the_values_in_order(
+            values in prop::collection::vec(
+                prop_oneof![-1e3..1e3_f64, Just(0.0), Just(-0.0), any::<f64>().prop_filter("finite", |v| v.is_finite())],
+                1..300,
+            ),
+        ) {
+            let mut ordered = values.clone();
+            ordered.sort_by(f64::total_cmp);
+            let last = values.len() - 1;
+            let expected = [0, 2, 98, 100].map(|part| ordered[last * part / 100]);
+            let found = limits_of(|| values.iter().copied());
+            prop_assert_eq!(found.map(f64::to_bits), expected.map(f64::to_bits));
+        }
+    }
+}

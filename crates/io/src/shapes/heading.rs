@@ -1,0 +1,214 @@
+//! Which columns of a table hold what, by their headings.
+
+/// Names of a column of x, lower case.
+const X: [&str; 10] = [
+    "x",
+    "position_x",
+    "pos_x",
+    "x_position",
+    "x_coord",
+    "x_coordinate",
+    "coord_x",
+    "col",
+    "column",
+    "xcoord",
+];
+/// Names of a column of y.
+const Y: [&str; 9] = [
+    "y",
+    "position_y",
+    "pos_y",
+    "y_position",
+    "y_coord",
+    "y_coordinate",
+    "coord_y",
+    "row",
+    "ycoord",
+];
+/// Names of a column that tells curves apart.
+const CURVE: [&str; 15] = [
+    "curve",
+    "contour",
+    "id",
+    "label",
+    "track",
+    "track_id",
+    "trackid",
+    "object",
+    "object_id",
+    "cell",
+    "roi",
+    "polygon",
+    "shape",
+    "index",
+    "frame",
+];
+/// Units that are pixels.
+const PIXELS: [&str; 5] = ["px", "pixel", "pixels", "pix", ""];
+/// Units that are not, where they follow a name without brackets.
+const LENGTHS: [&str; 12] = [
+    "um", "µm", "μm", "micron", "microns", "nm", "mm", "cm", "m", "in", "inch", "deg",
+];
+
+/// The columns of a table by their number from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Columns {
+    pub x: usize,
+    pub y: usize,
+    /// Which curve a point belongs to.
+    pub curve: Option<usize>,
+    /// Whether that curve is closed: 1 or 0.
+    pub closed: Option<usize>,
+    /// Which ring of its curve a point belongs to.
+    pub ring: Option<usize>,
+    /// How many there are.
+    pub count: usize,
+}
+
+impl Columns {
+    /// Of a table without a heading.
+    pub(super) const TWO: Self = Self {
+        x: 0,
+        y: 1,
+        curve: None,
+        closed: None,
+        ring: None,
+        count: 2,
+    };
+
+    /// By a heading.
+    ///
+    /// # Errors
+    /// What is wrong with it: no x or y, more than one, another unit than pixels.
+    pub(super) fn of(words: &[String]) -> Result<Self, String> {
+        let names: Vec<(String, String)> = words.iter().map(|word| name(word)).collect();
+        let (x, y) = match axes(&names) {
+            Some(last) => last,
+            None => (only(&names, &X, "x")?, only(&names, &Y, "y")?),
+        };
+        for at in [x, y] {
+            let unit = &names[at].1;
+            if !PIXELS.contains(&unit.as_str()) {
+                return Err(format!(
+                    "column {} is in another unit than pixels, which are needed",
+                    at + 1
+                ));
+            }
+        }
+        let find = |known: &[&str]| {
+            // the first name on the list that there is
+            let at = |wanted: &&str| names.iter().position(|(name, _)| name == wanted);
+            known.iter().find_map(at)
+        };
+        Ok(Self {
+            x,
+            y,
+            curve: find(&CURVE),
+            closed: find(&["closed"]),
+            ring: find(&["ring"]),
+            count: words.len(),
+        })
+    }
+}
+
+/// Axes that are numbered, rows before columns: the last is x and the one before it y.
+fn axes(names: &[(String, String)]) -> Option<(usize, usize)> {
+    let numbered = |k: usize| {
+        names
+            .iter()
+            .position(|(name, _)| *name == format!("axis-{k}"))
+    };
+    let last = (0..8).rev().find(|&k| numbered(k).is_some())?;
+    Some((numbered(last)?, numbered(last.checked_sub(1)?)?))
+}
+
+/// The one column that has one of these names.
+fn only(names: &[(String, String)], known: &[&str], axis: &str) -> Result<usize, String> {
+    let mut found = (0..names.len()).filter(|&i| known.contains(&names[i].0.as_str()));
+    match (found.next(), found.next()) {
+        (Some(at), None) => Ok(at),
+        (None, _) => Err(format!("the heading must name a column {axis}")),
+        (Some(_), Some(_)) => Err(format!("the heading names {axis} more than once")),
+    }
+}
+
+/// A name in lower case, and its unit: `X (px)`, `x [um]`, `x/px`, `x_mm`.
+fn name(word: &str) -> (String, String) {
+    let word = word.trim().to_lowercase();
+    let bracket = word.find(['(', '[', '/']);
+    let (name, unit) = match bracket {
+        Some(at) => {
+            let inside = |c: char| matches!(c, '(' | '[' | '/' | ')' | ']') || c.is_whitespace();
+            (word[..at].trim(), word[at..].trim_matches(inside))
+        }
+        None => match word.rsplit_once(['_', ' ', '-']) {
+            Some((name, unit)) if LENGTHS.contains(&unit) || PIXELS.contains(&unit) => {
+                (name.trim(), unit)
+            }
+            _ => (word.as_str(), ""),
+        },
+    };
+    // "position x" and "position-x" are "position_x"; "axis-0" stays
+    let name = if name.starts_with("axis") {
+        name.replace([' ', '_'], "-")
+    } else {
+        name.replace([' ', '-'], "_")
+    };
+    (name, unit.to_owned())
+}
+
+/// Whether words can be a heading: names, some of them perhaps blank, and none of them begun as a number.
+pub(super) fn is_heading(words: &[String]) -> bool {
+    let begins = |word: &String| word.chars().next().is_none_or(char::is_alphabetic);
+    words.iter().all(begins) && words.iter().any(|word| !word.is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(line: &str) -> Result<(usize, usize), String> {
+        let words: Vec<String> = line.split(',').map(str::to_owned).collect();
+        Columns::of(&words).map(|columns| (columns.x, columns.y))
+    }
+
+    #[test]
+    fn columns_are_found_by_the_names_that_programs_give_them() {
+        for (line, at) in [
+            ("x,y", (0, 1)),
+            (" ,X,Y", (1, 2)),
+            ("y,x", (1, 0)),
+            ("row,col", (1, 0)),
+            ("index,axis-0,axis-1", (2, 1)),
+            ("index,axis-0,axis-1,axis-2", (3, 2)),
+            ("FRAME,POSITION_X,POSITION_Y", (1, 2)),
+            ("Position X,Position Y", (0, 1)),
+            ("x (px),y (px)", (0, 1)),
+            ("x [pixel],y [pixel]", (0, 1)),
+            ("x/px,y/px", (0, 1)),
+            ("x_px,y_px", (0, 1)),
+            ("id,x,y,area", (1, 2)),
+        ] {
+            assert_eq!(of(line), Ok(at), "{line}");
+        }
+    }
+
+    #[test]
+    fn other_names_twice_the_same_and_other_units_are_refused() {
+        for (line, says) in [
+            ("a,b", "must name a column x"),
+            ("x,z", "must name a column y"),
+            ("breadth,height", "must name a column x"),
+            ("x,y,x", "names x more than once"),
+            ("x,col,y", "names x more than once"),
+            ("x [um],y [um]", "another unit"),
+            ("x (µm),y (µm)", "another unit"),
+            ("x,y (in)", "column 2 is in another unit"),
+            ("x_mm,y_mm", "another unit"),
+            ("axis-0,b", "must name a column x"),
+        ] {
+            let error = of(line).unwrap_err();
+            assert!(error.contains(says), "{line}: {error}");
+        }
+    }
+}
