@@ -110,31 +110,43 @@ impl Output {
             None => {}
         }
         if !matches!(record.outcome, Outcome::Diverged { .. }) {
-            let found = record.contours(last);
-            match &self.contour {
-                Some(_) if found.is_empty() => say("no curve is left: no contour is written"),
-                Some(path) if is_standard(path) => {
-                    if goes_nowhere() {
-                        say(
-                            "note: standard output is closed or /dev/null: the contour is kept nowhere",
-                        );
-                    }
-                    printed.push_str(&Contour::all_to_text(&found));
-                }
-                Some(path) => Contour::save_all(&found, path)?,
-                None => {}
-            }
-            if let (Some(path), Some(picture)) = (&self.overlay, &scene.picture) {
-                let start = record.contours(first);
-                let start = start.iter().map(|curve| (curve, START));
-                let found = found.iter().map(|curve| (curve, FOUND));
-                let drawn = start.chain(found);
-                let curves: Vec<_> = drawn
-                    .map(|(curve, color)| (&curve.points[..], curve.closed == Some(true), color))
-                    .collect();
-                paint::save_png(&paint::overlay(picture, &curves), path)?;
-            }
+            let (start, found) = (record.contours(first), record.contours(last));
+            printed.push_str(&self.curves(scene.picture.as_deref(), &start, &found)?);
         }
         put(&printed)
+    }
+
+    /// Write the curves found, and the picture with them and those of the start over it; what goes to standard
+    /// output is given back.
+    pub(crate) fn curves(
+        &self,
+        picture: Option<&Picture>,
+        start: &[Contour],
+        found: &[Contour],
+    ) -> Result<String, SceneError> {
+        let mut printed = String::new();
+        match &self.contour {
+            Some(_) if found.is_empty() => say("no curve is left: no contour is written"),
+            Some(path) if is_standard(path) => {
+                if goes_nowhere() {
+                    say(
+                        "note: standard output is closed or /dev/null: the contour is kept nowhere",
+                    );
+                }
+                printed.push_str(&Contour::all_to_text(found));
+            }
+            Some(path) => Contour::save_all(found, path)?,
+            None => {}
+        }
+        if let (Some(path), Some(picture)) = (&self.overlay, picture) {
+            let start = start.iter().map(|curve| (curve, START));
+            let found = found.iter().map(|curve| (curve, FOUND));
+            let drawn = start.chain(found);
+            let curves: Vec<_> = drawn
+                .map(|(curve, color)| (&curve.points[..], curve.closed == Some(true), color))
+                .collect();
+            paint::save_png(&paint::overlay(picture, &curves), path)?;
+        }
+        Ok(printed)
     }
 }

@@ -16,9 +16,6 @@ pub(crate) const MOST_IN_ALL: usize = 1 << 21;
 /// Snakes times forces and walls of each: every snake has its own list of them.
 pub(crate) const MOST_FORCES: usize = 1 << 20;
 
-/// Pixels of all force fields of a scene together, 16 bytes each: 2 GiB. One field is always made.
-pub(crate) const MOST_FIELDS: u64 = 1 << 27;
-
 /// Coordinates go so far from zero, either way: a thousandth of where a run counts as blown up, and
 /// far below where the square of a length overflows.
 pub(crate) const FARTHEST: f64 = 1e9;
@@ -57,12 +54,6 @@ pub(crate) const MOST_DRAWN: u64 = 1 << 22;
 
 /// Corners of a drawn road: each pixel asks every stretch.
 pub(crate) const MOST_CORNERS: usize = 64;
-
-/// Pixels times taps of a smoothing along one axis: about half a minute of work.
-pub(crate) const MOST_SMOOTHING: f64 = 1.7e10;
-
-/// Points of the transform behind vector field convolution: 16 bytes each, three times.
-pub(crate) const MOST_CONVOLUTION: f64 = 2.7e8;
 
 /// Steps of a run: days of work for the smallest snake.
 pub(crate) const MOST_STEPS: u64 = 1_000_000_000;

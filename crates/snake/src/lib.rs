@@ -83,7 +83,7 @@ pub use maps::Maps;
 pub use modes::ModeOfMotion;
 pub use pace::Pace;
 pub use rest::Rest;
-pub use run::{Outcome, Until, run};
+pub use run::{Outcome, Running, Until, run};
 pub use schedule::{Schedule, Schedules};
 pub use settling::{Settling, TimeToRest};
 pub use snake::Snake;

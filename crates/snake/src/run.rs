@@ -264,40 +264,78 @@ pub fn run(
     until: &Until,
     observer: &mut dyn FnMut(&mut Snake, &State) -> ControlFlow<()>,
 ) -> Outcome {
-    snake.settle(state);
-    let begin = state.step;
-    let mut watch = until.rest.map(|rest| Watch::new(rest, snake, state));
-    let over = |state: &State| until.time.is_some_and(|end| state.t >= end);
-    while state.step - begin < until.steps && !over(state) {
-        if let Err(fault) = stepper.step(snake, state) {
-            return Outcome::of_fault(fault, state.step);
-        }
-        let somewhere = |x: &DVec2| x.is_finite() && x.abs().max_element() < FAR;
-        if let Some(node) = state.x.iter().position(|x| !somewhere(x)) {
-            return Outcome::Diverged {
-                step: state.step,
-                node,
-            };
-        }
-        let changes = snake.changes;
-        if observer(snake, state).is_break() {
-            return Outcome::Stopped { step: state.step };
-        }
-        if snake.changes != changes {
-            // forces kept from the last step are no longer those of this snake
-            stepper.resume(snake, state);
-        }
-        let step = state.step;
-        match watch
-            .as_mut()
-            .and_then(|watch| watch.look(snake, state, &[]))
-        {
-            None | Some(Verdict::Moving) => {}
-            Some(verdict) => return verdict.outcome(step).unwrap_or(Outcome::Settled { step }),
+    let mut running = Running::begin(snake, state, *until);
+    let step = state.step;
+    let outcome = running.go(snake, stepper, state, (u64::MAX, observer));
+    // it always ends: the steps are counted
+    outcome.unwrap_or(Outcome::Finished { step })
+}
+
+/// A run that is made in parts: as [`run`], with pauses in which nothing is forgotten.
+#[derive(Debug)]
+pub struct Running {
+    until: Until,
+    begin: u64,
+    watch: Option<Watch>,
+}
+
+impl Running {
+    /// Begin a run at `state`, to last until `until`.
+    pub fn begin(snake: &mut Snake, state: &State, until: Until) -> Self {
+        snake.settle(state);
+        let watch = until.rest.map(|rest| Watch::new(rest, snake, state));
+        Self {
+            until,
+            begin: state.step,
+            watch,
         }
     }
-    let step = state.step;
-    let turned = watch.and_then(|watch| watch.turned(snake, state));
-    let turned = turned.and_then(|verdict| verdict.outcome(step));
-    turned.unwrap_or(Outcome::Finished { step })
+
+    /// Go on by at most so many steps, each shown to the observer; None if the run has not ended.
+    pub fn go(
+        &mut self,
+        snake: &mut Snake,
+        stepper: &mut dyn Stepper,
+        state: &mut State,
+        (steps, observer): (u64, &mut dyn FnMut(&mut Snake, &State) -> ControlFlow<()>),
+    ) -> Option<Outcome> {
+        let end = self.until.time;
+        let over = |state: &State| end.is_some_and(|end| state.t >= end);
+        let paused = state.step.saturating_add(steps);
+        while state.step - self.begin < self.until.steps && !over(state) {
+            if state.step >= paused {
+                return None;
+            }
+            if let Err(fault) = stepper.step(snake, state) {
+                return Some(Outcome::of_fault(fault, state.step));
+            }
+            let somewhere = |x: &DVec2| x.is_finite() && x.abs().max_element() < FAR;
+            if let Some(node) = state.x.iter().position(|x| !somewhere(x)) {
+                let step = state.step;
+                return Some(Outcome::Diverged { step, node });
+            }
+            let changes = snake.changes;
+            if observer(snake, state).is_break() {
+                return Some(Outcome::Stopped { step: state.step });
+            }
+            if snake.changes != changes {
+                // forces kept from the last step are no longer those of this snake
+                stepper.resume(snake, state);
+            }
+            let step = state.step;
+            let watch = self.watch.as_mut();
+            match watch.and_then(|watch| watch.look(snake, state, &[])) {
+                None | Some(Verdict::Moving) => {}
+                Some(verdict) => {
+                    let settled = Outcome::Settled { step };
+                    return Some(verdict.outcome(step).unwrap_or(settled));
+                }
+            }
+        }
+        let step = state.step;
+        let watch = self.watch.as_ref();
+        let turned = watch.and_then(|watch| watch.turned(snake, state));
+        let turned = turned.and_then(|verdict| verdict.outcome(step));
+        Some(turned.unwrap_or(Outcome::Finished { step }))
+    }
 }

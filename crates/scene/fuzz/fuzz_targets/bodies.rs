@@ -4,7 +4,8 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use scene::{Contour, Fit, Picture, Scene, field};
+use scene::fit::{self, Image, Nodes, Options};
+use scene::{Contour, Picture, Scene, field};
 
 /// A refusal says something, in few words.
 fn is_short(said: &str, most: usize) {
@@ -20,13 +21,17 @@ pub fn contour(bytes: &[u8]) {
         Ok(contour) => {
             assert_eq!(Contour::parse(&contour.to_text()).as_ref(), Ok(&contour));
             let levels = field::Grid::from_shape_fn((8, 8), |(y, x)| (x * y) as f64);
-            let fit = Fit {
-                nodes: Some(12),
+            let options = Options {
+                nodes: Nodes::Count(12),
                 steps: 3,
-                ..Fit::default()
+                ..Options::default()
+            };
+            let start = fit::Contour {
+                points: contour.points,
+                closed: contour.closed.unwrap_or(true),
             };
             // some lie in this picture; most are refused
-            let _ = fit.scene(Picture::from_levels(levels), &contour);
+            let _ = fit::fit(&Image::grey(levels), &start, &options);
         }
         Err(said) => is_short(&said, 400),
     }

@@ -2,7 +2,6 @@
 
 mod body;
 mod company;
-mod edge_field;
 mod ends;
 mod files;
 pub(crate) mod force;
@@ -22,7 +21,7 @@ use snake::{Snake, SnakeError, Turning};
 use files::Files;
 use force::Sight;
 
-pub use edge_field::Computing;
+pub use force::image as fit_image;
 pub(crate) use hand::force_now;
 pub(crate) use plan::USUAL_TOLERANCE;
 pub(crate) use world::{outside, smoothing};
@@ -92,11 +91,12 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         .picture
         .as_ref()
         .map(|p| picture(p, files))
-        .transpose()?;
+        .transpose()?
+        .map(Arc::new);
     if let Some(picture) = &picture {
         world::inside(&start, picture, rules)?;
     }
-    body.maps = map::maps(text, picture.as_ref(), files)?;
+    body.maps = map::maps(text, picture.as_deref(), files)?;
     let mut notes = Vec::new();
     notes.extend(picture.iter().flat_map(|p| p.notes().to_vec()));
     let sight = picture.as_ref().map(Sight::of).transpose()?;
@@ -105,9 +105,9 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
     let (world, field) = world::world(text, rules, sight.as_ref(), &start.x, closed)?;
     let (hand, world) = hand::hand(text, world, &body, &start)?;
     let mut snake = Snake::new(body, world).map_err(|e| refused("snake", &e))?;
-    ends::slide(text, &mut snake, &start, picture.as_ref())?;
+    ends::slide(text, &mut snake, &start, picture.as_deref())?;
     body::damp(text, &mut snake, &start)?;
-    let tips = ends::tips(text, &snake, picture.as_ref())?;
+    let tips = ends::tips(text, &snake, picture.as_deref())?;
     let terms = body::terms(text)?;
     if terms.is_some() {
         Turning::new(&snake).map_err(|e| SceneError::key("snake.frame", e))?;
@@ -120,7 +120,7 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         report: text.report.clone(),
         note: text.note.clone(),
         view,
-        picture: picture.map(Arc::new),
+        picture,
         field,
         snake,
         terms,

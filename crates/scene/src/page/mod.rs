@@ -3,6 +3,7 @@
 mod html;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::path::{Path, PathBuf};
 
 use field::{EdgeForce, ForceField, Grid, Region, RegionScratch, Smoothing};
@@ -122,7 +123,8 @@ impl Fields {
         {
             return Err(SceneError::key("--from", format!("point {message}")));
         }
-        let sight = Sight::of(picture)?;
+        let shared = Arc::new(picture.clone());
+        let sight = Sight::of(&shared)?;
         ready_folder(folder)?;
         let mut sheet = Sheet {
             folder,
