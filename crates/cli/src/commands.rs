@@ -9,9 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use scene::field::Smoothing;
 use scene::integrator::Scheme;
 use scene::snake::{Certificate, Outcome};
-use scene::{
-    Claims, Contour, Evidence, Fields, ForceChoice, Picture, Record, Scene, SceneError,
-};
+use scene::{Claims, Contour, Evidence, Fields, ForceChoice, Picture, Record, Scene, SceneError};
 
 use crate::args;
 use crate::output::{Output, put, say};

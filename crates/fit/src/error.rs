@@ -186,7 +186,7 @@ pub enum Problem {
         got: f64,
     },
     /// Too many of something, or too few.
-    #[error("must be {}, got {got}", range(*least, *most))]
+    #[error("must be {}, got {got}", bound(*least, *most, *got))]
     Count {
         /// The least that is possible.
         least: u64,
@@ -198,7 +198,7 @@ pub enum Problem {
     /// A point of the start that is not in the image.
     #[error(
         "point {index} at ({x:.2}, {y:.2}) is outside the picture of {width}×{height} pixels; \
-         x must be from 0 to {} and y from 0 to {}", width - 1, height - 1
+         a point must have x from 0 to {} and y from 0 to {}", width - 1, height - 1
     )]
     Outside {
         /// The first such point.
@@ -213,7 +213,9 @@ pub enum Problem {
         height: usize,
     },
     /// A step that is too long.
-    #[error("a step of {got} is too large: must be at most {most}, the largest stable step in this picture")]
+    #[error(
+        "a step of {got} is too large: must be at most {most}, the largest stable step in this picture"
+    )]
     Unstable {
         /// The largest stable step.
         most: f64,
@@ -240,11 +242,12 @@ pub enum Problem {
     Other(String),
 }
 
-fn range(least: u64, most: u64) -> String {
-    if least == 0 {
+/// The bound that was passed, in words.
+fn bound(least: u64, most: u64, got: u64) -> String {
+    if got > most {
         format!("at most {most}")
     } else {
-        format!("from {least} to {most}")
+        format!("at least {least}")
     }
 }
 

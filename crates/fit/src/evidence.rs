@@ -138,7 +138,12 @@ pub(crate) fn normals(x: &[DVec2], closed: bool) -> Vec<DVec2> {
 
 /// The image's forces along `normals` when every node is moved along its own by `way`; None where one has
 /// no value.
-pub(crate) fn pulls(snake: &mut Snake, end: &State, normals: &[DVec2], way: f64) -> Option<Vec<f64>> {
+pub(crate) fn pulls(
+    snake: &mut Snake,
+    end: &State,
+    normals: &[DVec2],
+    way: f64,
+) -> Option<Vec<f64>> {
     let n = end.len();
     let moved = end.x.iter().zip(normals);
     let moved = State {

@@ -149,10 +149,7 @@ impl Image {
     pub fn with_mask(self, valid: Array2<bool>) -> Result<Self, FieldError> {
         let (width, height) = self.size();
         MaskedImage::new(&Grid::zeros((height, width)), &valid)?;
-        Ok(Self(Arc::new(Masked {
-            image: self,
-            valid,
-        })))
+        Ok(Self(Arc::new(Masked { image: self, valid })))
     }
 
     /// Width and height.

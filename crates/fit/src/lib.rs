@@ -45,6 +45,7 @@
 //! concerned ([`OptionKey`]), what is needed and what was given.
 
 mod contour;
+mod edit;
 mod error;
 mod evidence;
 pub mod force;
@@ -56,17 +57,18 @@ mod options;
 mod prepared;
 mod result;
 mod session;
+mod setup;
 
 pub use contour::Contour;
+pub use edit::Edit;
 pub use error::{FitError, OptionKey, Problem};
 pub use evidence::{Evidence, Narrow};
 pub use image::{Image, Pixels};
 pub use many::{Job, fit_many};
-pub use force::Computing;
 pub use options::{FitForce, MakeForce, Nodes, Options, Step};
 pub use prepared::Prepared;
 pub use result::{Choices, Fit, NodeEvidence, StepReason};
-pub use session::{Edit, Session};
+pub use session::Session;
 
 /// Fit a contour to an image: find the outline that it is drawn around.
 ///

@@ -63,7 +63,11 @@ fn what_a_mask_leaves_out_has_no_influence() {
     let wild = fit(&masked(wild), &start, &options).unwrap();
     assert_eq!(tame, wild);
     assert!(tame.is_outline());
-    assert!(Image::grey(disc(CENTER, 22.0)).with_mask(Array2::from_elem((3, 3), true)).is_err());
+    assert!(
+        Image::grey(disc(CENTER, 22.0))
+            .with_mask(Array2::from_elem((3, 3), true))
+            .is_err()
+    );
     let grids = [(4, 4), (4, 5), (4, 4)].map(field::Grid::zeros);
     assert!(Image::color(grids).is_err());
 }

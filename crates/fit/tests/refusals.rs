@@ -27,28 +27,120 @@ fn key(start: &Contour, options: &Options) -> OptionKey {
 fn numbers_that_make_no_sense_are_refused_by_their_option() {
     for bad in [f64::NAN, f64::INFINITY, -1.0] {
         for (key_of, options) in [
-            (OptionKey::Tether, Options { tether: bad, ..whole() }),
-            (OptionKey::Tension, Options { tension: bad, ..whole() }),
-            (OptionKey::Rigidity, Options { rigidity: bad, ..whole() }),
-            (OptionKey::Damping, Options { damping: bad, ..whole() }),
-            (OptionKey::Sigma, Options { sigma: bad, ..whole() }),
-            (OptionKey::Strength, Options { strength: bad, ..whole() }),
-            (OptionKey::Step, Options { step: Step::Equal(bad), ..whole() }),
-            (OptionKey::Nodes, Options { nodes: Nodes::Every(bad), ..whole() }),
+            (
+                OptionKey::Tether,
+                Options {
+                    tether: bad,
+                    ..whole()
+                },
+            ),
+            (
+                OptionKey::Tension,
+                Options {
+                    tension: bad,
+                    ..whole()
+                },
+            ),
+            (
+                OptionKey::Rigidity,
+                Options {
+                    rigidity: bad,
+                    ..whole()
+                },
+            ),
+            (
+                OptionKey::Damping,
+                Options {
+                    damping: bad,
+                    ..whole()
+                },
+            ),
+            (
+                OptionKey::Sigma,
+                Options {
+                    sigma: bad,
+                    ..whole()
+                },
+            ),
+            (
+                OptionKey::Strength,
+                Options {
+                    strength: bad,
+                    ..whole()
+                },
+            ),
+            (
+                OptionKey::Step,
+                Options {
+                    step: Step::Equal(bad),
+                    ..whole()
+                },
+            ),
+            (
+                OptionKey::Nodes,
+                Options {
+                    nodes: Nodes::Every(bad),
+                    ..whole()
+                },
+            ),
         ] {
             assert_eq!(key(&near(), &options), key_of, "{bad}");
         }
     }
     let balloon = f64::NAN;
-    assert_eq!(key(&near(), &Options { balloon, ..whole() }), OptionKey::Balloon);
-    let error = fit(&image(), &near(), &Options { sigma: -1.0, ..whole() }).unwrap_err();
-    assert_eq!(error.to_string(), "sigma: must be finite and above 0, got -1");
+    assert_eq!(
+        key(&near(), &Options { balloon, ..whole() }),
+        OptionKey::Balloon
+    );
+    let error = fit(
+        &image(),
+        &near(),
+        &Options {
+            sigma: -1.0,
+            ..whole()
+        },
+    )
+    .unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "sigma: must be finite and above 0, got -1"
+    );
     for (key_of, options) in [
-        (OptionKey::Nodes, Options { nodes: Nodes::Count(2), ..whole() }),
-        (OptionKey::Nodes, Options { nodes: Nodes::Count(usize::MAX), ..whole() }),
-        (OptionKey::Sigma, Options { sigma: 1e300, ..whole() }),
-        (OptionKey::Step, Options { step: Step::Equal(1e3), ..whole() }),
-        (OptionKey::Steps, Options { steps: u64::MAX, ..whole() }),
+        (
+            OptionKey::Nodes,
+            Options {
+                nodes: Nodes::Count(2),
+                ..whole()
+            },
+        ),
+        (
+            OptionKey::Nodes,
+            Options {
+                nodes: Nodes::Count(usize::MAX),
+                ..whole()
+            },
+        ),
+        (
+            OptionKey::Sigma,
+            Options {
+                sigma: 1e300,
+                ..whole()
+            },
+        ),
+        (
+            OptionKey::Step,
+            Options {
+                step: Step::Equal(1e3),
+                ..whole()
+            },
+        ),
+        (
+            OptionKey::Steps,
+            Options {
+                steps: u64::MAX,
+                ..whole()
+            },
+        ),
     ] {
         assert_eq!(key(&near(), &options), key_of);
     }
@@ -112,7 +204,10 @@ fn forces_are_refused_by_their_index_and_value() {
         forces: vec![heavy],
         ..whole()
     };
-    assert_eq!(key(&near(), &options), OptionKey::Force(0, ForceKey::Weight));
+    assert_eq!(
+        key(&near(), &options),
+        OptionKey::Force(0, ForceKey::Weight)
+    );
 }
 
 #[test]
@@ -127,11 +222,20 @@ fn what_does_not_come_to_rest_or_rests_on_nothing_is_an_outcome() {
     assert!(!still.is_outline(), "{still:?}");
     let quality = still.quality.unwrap();
     assert!(quality.objection().unwrap().contains("no boundary here"));
-    assert!(still.nodes.iter().all(|node| !node.held && node.slope.abs() < 1e-12));
+    assert!(
+        still
+            .nodes
+            .iter()
+            .all(|node| !node.held && node.slope.abs() < 1e-12)
+    );
     // so much pressure that its force is no number
     let balloon = f64::MAX;
     let burst = fit(&image(), &near(), &Options { balloon, ..whole() }).unwrap();
-    assert!(matches!(burst.outcome, Outcome::Diverged { .. }), "{:?}", burst.outcome);
+    assert!(
+        matches!(burst.outcome, Outcome::Diverged { .. }),
+        "{:?}",
+        burst.outcome
+    );
     assert!(burst.nodes.is_empty() && !burst.is_outline());
 }
 

@@ -237,7 +237,11 @@ fn set_rows(wide: &mut Banded, band: &Band, i: usize, pull: DMat2) {
 fn symmetric(slope: DMat2) -> DMat2 {
     let b = 0.5 * (slope.x_axis.y + slope.y_axis.x);
     let whole = DMat2::from_cols(DVec2::new(slope.x_axis.x, b), DVec2::new(b, slope.y_axis.y));
-    if whole.is_finite() { whole } else { DMat2::ZERO }
+    if whole.is_finite() {
+        whole
+    } else {
+        DMat2::ZERO
+    }
 }
 
 /// The symmetric part of a slope without its positive eigenvalues.

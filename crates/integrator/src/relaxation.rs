@@ -284,7 +284,9 @@ impl Stepper for Relaxation {
         let moment = Moment {
             t: self.clock.next(),
             dt: self.clock.dt,
-            pace: Pace::Together { way: self.theta(self.clock.dt) },
+            pace: Pace::Together {
+                way: self.theta(self.clock.dt),
+            },
         };
         let (x, v) = (&mut self.next_x, &mut self.next_v);
         let touched =

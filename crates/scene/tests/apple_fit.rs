@@ -8,7 +8,8 @@ use elastic::{Material, Topology};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use scene::Picture;
-use scene::fit::{Computing, Contour, Options, Prepared};
+use scene::fit::force::Computing;
+use scene::fit::{Contour, Options, Prepared};
 use snake::{Body, Certificate, Outcome, Rest, Sampling, Snake, Until, Wall, WallLaw, World};
 
 /// Steps of the explicit run until a motion of a millionth of its size in a sixth of its time counts as rest.

@@ -10,8 +10,8 @@ use field::{EdgeForce, Grid, Smoothing};
 use glam::DVec2;
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, Rgb};
 use scene::fit::force::{Edge, ImageForceKind};
-use scene::snake::ImageForce;
 use scene::fit::{Contour, FitError, OptionKey, Options, Prepared};
+use scene::snake::ImageForce;
 use scene::{Computing, ForceChoice, Picture, Scene};
 
 const SIZE: (u32, u32) = (300, 200);

@@ -266,7 +266,7 @@ pub fn run(
 ) -> Outcome {
     let mut running = Running::begin(snake, state, *until);
     let step = state.step;
-    let outcome = running.go(snake, stepper, state, (u64::MAX, observer));
+    let outcome = running.go(snake, stepper, state, u64::MAX, observer);
     // it always ends: the steps are counted
     outcome.unwrap_or(Outcome::Finished { step })
 }
@@ -297,7 +297,8 @@ impl Running {
         snake: &mut Snake,
         stepper: &mut dyn Stepper,
         state: &mut State,
-        (steps, observer): (u64, &mut dyn FnMut(&mut Snake, &State) -> ControlFlow<()>),
+        steps: u64,
+        observer: &mut dyn FnMut(&mut Snake, &State) -> ControlFlow<()>,
     ) -> Option<Outcome> {
         let end = self.until.time;
         let over = |state: &State| end.is_some_and(|end| state.t >= end);

@@ -8,6 +8,7 @@ mod edge_field;
 mod kind;
 mod reach;
 mod region;
+mod region_kind;
 mod sight;
 mod strength;
 
@@ -17,9 +18,9 @@ pub use crate::error::{ForceError, ForceKey};
 pub use crate::limits::check_smoothing;
 pub use edge_field::Computing;
 pub use kind::{
-    CoarseToFine, ColorEdge, Densities, Distance, Edge, Gvf, ImageForceKind, Likelihood, Line,
-    LocalRegions, Regions, Scales, Termination, Texture, Vfc,
+    CoarseToFine, ColorEdge, Distance, Edge, Gvf, ImageForceKind, Line, Scales, Termination, Vfc,
 };
+pub use region_kind::{Densities, Likelihood, LocalRegions, Regions, Texture};
 pub use sight::Sight;
 
 use crate::Problem;

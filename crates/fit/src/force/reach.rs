@@ -30,10 +30,7 @@ impl Sight {
             edges.zip_mut_with(valid, |edge, &counts| *edge &= counts);
             let field = field::distance_force(&edges, gain, reach).map_err(by(ForceKey::All))?;
             return Ok(Made {
-                field: self
-                    .grey()?
-                    .cut(&field)
-                    .map_err(by(ForceKey::All))?,
+                field: self.grey()?.cut(&field).map_err(by(ForceKey::All))?,
                 energy: energy(field::squared_distance(&edges).mapv(f64::sqrt)),
             });
         }
@@ -127,12 +124,7 @@ impl Sight {
     /// A field whose pulls, weak or strong, become alike: `V / √(|V|² + (knee · largest)²)`, of length 1 at most.
     ///
     /// Flows fall off so fast that far from an edge nothing would move; which way they point is what counts there.
-    fn leveled(
-        &self,
-        field: &ForceField,
-        strength: f64,
-        knee: f64,
-    ) -> Result<Made, ForceError> {
+    fn leveled(&self, field: &ForceField, strength: f64, knee: f64) -> Result<Made, ForceError> {
         let pull = pull(strength)?;
         let knee = above_zero(ForceKey::Knee, knee)?;
         let largest = field.largest();
@@ -147,10 +139,7 @@ impl Sight {
         }
         let field = ForceField::from_components(&x, &y).map_err(by(ForceKey::All))?;
         Ok(Made {
-            field: self
-                .grey()?
-                .cut(&field)
-                .map_err(by(ForceKey::All))?,
+            field: self.grey()?.cut(&field).map_err(by(ForceKey::All))?,
             energy: None,
         })
     }

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use field::{
-    Classes, Density, FieldError, Grid, LikelihoodRegions, LocalRegions, MaskedImage, Region, RegionScratch,
-    Smoothing, TwoRegions,
+    Classes, Density, FieldError, Grid, LikelihoodRegions, LocalRegions, MaskedImage, Region,
+    RegionScratch, Smoothing, TwoRegions,
 };
 use glam::DVec2;
 
@@ -27,7 +27,8 @@ impl Sight {
                 .smoothed(Smoothing::Gaussian(sigma))?;
             image.masked(&smoothed)
         };
-        let smoothed: Result<Vec<MaskedImage>, _> = self.channels(grey).iter().map(smooth).collect();
+        let smoothed: Result<Vec<MaskedImage>, _> =
+            self.channels(grey).iter().map(smooth).collect();
         smoothed.map_err(by(ForceKey::All))
     }
 

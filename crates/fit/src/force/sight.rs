@@ -7,9 +7,7 @@ use field::{EdgeForce, FieldError, ForceField, Grid, MaskedImage, Region, Smooth
 use snake::{Acting, ImageForce, RegionForce, Sampling};
 
 use super::edge_field::{Computing, Part, edge_field};
-use super::{
-    ForceError, ForceKey, ImageForceKind, Made, above_nothing, all, by, checked,
-};
+use super::{ForceError, ForceKey, ImageForceKind, Made, above_nothing, all, by, checked};
 use crate::limits::MOST_FIELDS;
 use crate::{Image, Problem};
 use field::level_spread;

@@ -6,8 +6,8 @@ use field::{EdgeForce, ForceField, Grid, Line as Shade, Polarity, SignedEdge, Sm
 use snake::{Acting, ImageForce, Sampling, Schedule, SignedEdgeForce};
 
 use super::{
-    CoarseToFine, ColorEdge, Edge, ForceError, ForceKey, Line, Made, NORMAL_AT_0, NORMAL_AT_1, Scales,
-    Sight, Termination, above_nothing, above_zero, by, checked, pull,
+    CoarseToFine, ColorEdge, Edge, ForceError, ForceKey, Line, Made, NORMAL_AT_0, NORMAL_AT_1,
+    Scales, Sight, Termination, above_nothing, above_zero, by, checked, pull,
 };
 use crate::Problem;
 
@@ -40,7 +40,8 @@ impl Sight {
         let gain = edge_gain(edge.strength, sigma, self.contrast())?;
         let polarity = edge.polarity.unwrap_or(Polarity::Either);
         let smoothed = self.smoothed(sigma)?;
-        let edge = SignedEdge::new(&smoothed, AS_IT_IS, polarity, gain).map_err(by(ForceKey::All))?;
+        let edge =
+            SignedEdge::new(&smoothed, AS_IT_IS, polarity, gain).map_err(by(ForceKey::All))?;
         Ok(SignedEdgeForce::new(Arc::new(edge)))
     }
 
@@ -66,7 +67,8 @@ impl Sight {
             smoothed.push(smooth.map_err(by(ForceKey::All))?);
         }
         let gain = edge_gain(edge.strength, sigma, above_nothing(squares.sqrt()))?;
-        let strength = field::color_edge_strength(&smoothed, AS_IT_IS).map_err(by(ForceKey::All))?;
+        let strength =
+            field::color_edge_strength(&smoothed, AS_IT_IS).map_err(by(ForceKey::All))?;
         self.climbing(&strength, gain)
     }
 

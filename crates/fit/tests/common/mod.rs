@@ -1,14 +1,18 @@
 //! Drawn images whose outlines are known.
 #![allow(dead_code, reason = "each test file uses its part")]
 
-use fit::{Computing, Contour, Fit, Image, Options, fit};
+use fit::force::Computing;
+use fit::{Contour, Fit, Image, Options, fit};
 use glam::DVec2;
 
 pub(crate) const DARK: f64 = 40.0;
 pub(crate) const BRIGHT: f64 = 200.0;
 
 /// Levels of which each pixel is the mean over 16 × 16 points: bright where `inside`.
-pub(crate) fn drawn((width, height): (usize, usize), inside: impl Fn(DVec2) -> bool) -> field::Grid {
+pub(crate) fn drawn(
+    (width, height): (usize, usize),
+    inside: impl Fn(DVec2) -> bool,
+) -> field::Grid {
     field::Grid::from_shape_fn((height, width), |(y, x)| {
         let mut count = 0.0;
         for v in 0..16 {

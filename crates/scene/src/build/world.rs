@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use elastic::Profile;
 use field::{EdgeForce, FieldError, ForceField, Smoothing};
-use fit::Computing;
+use fit::force::Computing;
 use glam::DVec2;
 use integrator::State;
 use snake::{Acting, ImageForce, Sampling, SnakeError, Wall, WallLaw, World};

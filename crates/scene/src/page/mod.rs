@@ -3,8 +3,8 @@
 mod html;
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use field::{EdgeForce, ForceField, Grid, Region, RegionScratch, Smoothing};
 use glam::DVec2;

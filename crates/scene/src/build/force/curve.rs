@@ -6,9 +6,7 @@ use snake::{Freeze, Path, Pressure, RegionForce, Repulsor, SnakeError, Spring};
 
 use super::{Around, number};
 use crate::SceneError;
-use crate::file::{
-    AreaText, DirectionText, FreezeText, PressureText, RepulsorText, SpringText,
-};
+use crate::file::{AreaText, DirectionText, FreezeText, PressureText, RepulsorText, SpringText};
 
 impl Around<'_> {
     fn at(&self, name: &str) -> String {
@@ -40,9 +38,7 @@ impl Around<'_> {
                 let judge = self.seen()?.region(&regions);
                 let judge = judge.map_err(|error| SceneError::key(self.key, error.problem))?;
                 let judge = judge.map(RegionForce::new);
-                Ok(judge.map_or(Pressure::constant(k), |judge| {
-                    Pressure::automatic(k, judge)
-                }))
+                Ok(judge.map_or(Pressure::constant(k), |judge| Pressure::automatic(k, judge)))
             }
         }
     }
