@@ -187,16 +187,16 @@ pub(crate) struct Fit {
     #[arg(long, value_name = "N")]
     pub nodes: Option<usize>,
     /// How hard each node is held to its place in the start's shape.
-    #[arg(long, value_name = "W0", allow_negative_numbers = true, default_value_t = scene::Fit::default().tether)]
+    #[arg(long, value_name = "W0", allow_negative_numbers = true, default_value_t = scene::fit::Options::default().tether)]
     pub tether: f64,
     /// How hard the curve resists stretching out of the start's shape.
-    #[arg(long, value_name = "W1", allow_negative_numbers = true, default_value_t = scene::Fit::default().tension)]
+    #[arg(long, value_name = "W1", allow_negative_numbers = true, default_value_t = scene::fit::Options::default().tension)]
     pub tension: f64,
     /// How hard the curve resists bending out of the start's shape.
-    #[arg(long, value_name = "W2", allow_negative_numbers = true, default_value_t = scene::Fit::default().rigidity)]
+    #[arg(long, value_name = "W2", allow_negative_numbers = true, default_value_t = scene::fit::Options::default().rigidity)]
     pub rigidity: f64,
     /// How strongly the motion is damped.
-    #[arg(long, value_name = "G", allow_negative_numbers = true, default_value_t = scene::Fit::default().damping)]
+    #[arg(long, value_name = "G", allow_negative_numbers = true, default_value_t = scene::fit::Options::default().damping)]
     pub damping: f64,
     /// A force to pull with (see `list forces`) instead of the edge force; may be given again. With a
     /// weight as `gvf:0.5`, with keys of its own as `{ kind = "edge", sigma = 2.0 }`.
@@ -218,17 +218,17 @@ pub(crate) struct Fit {
     )]
     pub balloon: f64,
     /// Width of the Gaussian that smooths the picture for the edge force, pixels; the reach is about three times that.
-    #[arg(long, value_name = "PX", allow_negative_numbers = true, default_value_t = scene::Fit::default().sigma)]
+    #[arg(long, value_name = "PX", allow_negative_numbers = true, default_value_t = scene::fit::Options::default().sigma)]
     pub sigma: f64,
     /// How hard the edge force pulls; 1 suits most.
-    #[arg(long, value_name = "S", allow_negative_numbers = true, default_value_t = scene::Fit::default().strength)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, default_value_t = scene::fit::Options::default().strength)]
     pub strength: f64,
-    /// The step; if not given, half of the largest that is stable anywhere in the picture, and at
-    /// most 1 (0.2 with --force).
+    /// Equal steps of this length; if not given, steps that grow on the way to rest (with --force: half of
+    /// the largest that is stable anywhere in the picture, and at most 0.2).
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub dt: Option<f64>,
     /// Steps at most.
-    #[arg(long, value_name = "N", default_value_t = scene::Fit::default().steps)]
+    #[arg(long, value_name = "N", default_value_t = scene::fit::Options::default().steps)]
     pub steps: u64,
 }
 

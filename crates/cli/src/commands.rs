@@ -2,20 +2,20 @@
 
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use io::{Claims, Picture, shapes};
-use scene::field::{Polarity, Smoothing};
+use scene::field::Smoothing;
 use scene::integrator::Scheme;
 use scene::snake::{Certificate, Outcome};
-use scene::{Computing, Fields, ForceChoice, Record, Scene, SceneError, SceneText};
+use scene::{Evidence, Fields, ForceChoice, Record, Scene, SceneError, SceneText};
 
 use crate::args;
 use crate::output::{Output, put, say};
 
-type Answer = Result<ExitCode, SceneError>;
+pub(crate) type Answer = Result<ExitCode, SceneError>;
 
 pub(crate) fn run(args: &args::Run) -> Answer {
     let mut scene = find(&args.scene, &args.changes)?.scene()?;
@@ -82,51 +82,6 @@ pub(crate) fn run(args: &args::Run) -> Answer {
     go(&mut scene, &output, &flags)
 }
 
-pub(crate) fn fit(args: &args::Fit) -> Answer {
-    let fit = scene::Fit {
-        nodes: args.nodes,
-        closed: match (args.open, args.closed) {
-            (true, _) => Some(false),
-            (_, true) => Some(true),
-            _ => None,
-        },
-        tether: args.tether,
-        tension: args.tension,
-        rigidity: args.rigidity,
-        damping: args.damping,
-        sigma: args.sigma,
-        strength: args.strength,
-        forces: choices("--force", &args.force)?,
-        polarity: match args.polarity {
-            args::Polarity::Either => Polarity::Either,
-            args::Polarity::DarkToBright => Polarity::DarkToBright,
-            args::Polarity::BrightToDark => Polarity::BrightToDark,
-        },
-        computing: match args.computed {
-            args::Computed::Auto => Computing::Auto,
-            args::Computed::Lazy => Computing::Lazy,
-            args::Computed::Whole => Computing::Whole,
-        },
-        balloon: args.balloon,
-        dt: args.dt,
-        steps: args.steps,
-    };
-    two_inputs(&args.image, Some(&args.from))?;
-    let contour = shapes::load_one(&args.from)?;
-    let picture = Picture::load(&args.image)?;
-    let output = Output {
-        record: None,
-        contour: Some(args.out.clone().unwrap_or_else(|| PathBuf::from("-"))),
-        overlay: args.overlay.clone(),
-    };
-    let inputs = vec![args.image.clone(), args.from.clone()];
-    output.check(Some(&picture), &inputs)?;
-    let mut scene = fit.scene(picture, &contour)?;
-    scene.inputs = inputs;
-    let flags = [("run.dt", "--dt", true), ("run.steps", "--steps", true)];
-    go(&mut scene, &output, &flags)
-}
-
 pub(crate) fn field(args: &args::Field) -> Answer {
     two_inputs(&args.image, args.from.as_deref())?;
     let picture = Picture::load(&args.image)?;
@@ -175,7 +130,7 @@ pub(crate) fn field(args: &args::Field) -> Answer {
 }
 
 /// Kinds of force as typed behind a flag.
-fn choices(flag: &str, typed: &[String]) -> Result<Vec<ForceChoice>, SceneError> {
+pub(crate) fn choices(flag: &str, typed: &[String]) -> Result<Vec<ForceChoice>, SceneError> {
     let read = |text: &String| ForceChoice::parse(text).map_err(|message| key(flag, message));
     typed.iter().map(read).collect()
 }
@@ -209,7 +164,7 @@ pub(crate) fn list(args: &args::List) -> Answer {
 }
 
 /// Standard input can be read but once.
-fn two_inputs(image: &Path, from: Option<&Path>) -> Result<(), SceneError> {
+pub(crate) fn two_inputs(image: &Path, from: Option<&Path>) -> Result<(), SceneError> {
     let standard = Path::new("-");
     if image == standard && from == Some(standard) {
         let message = "standard input is the picture already; the contour must be a file";
@@ -290,23 +245,35 @@ fn judge(title: &str, record: &Record) -> bool {
         } else {
             String::new()
         };
-        say(&format!("{title}{which}: {evidence}"));
-        if let Some(reason) = evidence.objection() {
-            say(&format!("{title}{which}: not an outline: {reason}"));
-            objected = true;
-        } else if let Some(note) = evidence.note() {
-            say(&format!("note: {note}"));
-        }
+        objected |= objects(&format!("{title}{which}"), evidence);
     }
     objected
 }
 
-/// Run a scene with a progress bar on standard error, when a person is there to see it.
-fn watched(scene: &mut Scene) -> Result<Record, SceneError> {
-    let bar = ProgressBar::new(scene.plan.until.steps);
+/// Say what speaks for a curve of that title; whether anything speaks against it.
+pub(crate) fn objects(title: &str, evidence: &Evidence) -> bool {
+    say(&format!("{title}: {evidence}"));
+    let objection = evidence.objection();
+    if let Some(reason) = &objection {
+        say(&format!("{title}: not an outline: {reason}"));
+    } else if let Some(note) = evidence.note() {
+        say(&format!("note: {note}"));
+    }
+    objection.is_some()
+}
+
+/// A bar on standard error for so many steps.
+pub(crate) fn bar(steps: u64) -> ProgressBar {
+    let bar = ProgressBar::new(steps);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} steps {eta}") {
         bar.set_style(style);
     }
+    bar
+}
+
+/// Run a scene with a progress bar on standard error, when a person is there to see it.
+fn watched(scene: &mut Scene) -> Result<Record, SceneError> {
+    let bar = bar(scene.plan.until.steps);
     let record = scene.run(&mut |state| {
         if state.step % 256 == 0 {
             bar.set_position(state.step);

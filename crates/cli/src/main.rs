@@ -5,6 +5,7 @@
 
 mod args;
 mod commands;
+mod fitting;
 mod output;
 
 use std::process::ExitCode;
@@ -21,7 +22,7 @@ fn main() -> ExitCode {
     let outcome = match args.command {
         args::Command::Run(run) => commands::run(&run),
         args::Command::Field(field) => commands::field(&field),
-        args::Command::Fit(fit) => commands::fit(&fit),
+        args::Command::Fit(fit) => fitting::fit(&fit),
         args::Command::Show(show) => commands::show(&show),
         args::Command::List(list) => commands::list(&list),
     };

@@ -111,31 +111,43 @@ impl Output {
             None => {}
         }
         if !matches!(record.outcome, Outcome::Diverged { .. }) {
-            let found = last.shapes();
-            match &self.contour {
-                Some(_) if found.is_empty() => say("no curve is left: no contour is written"),
-                Some(path) if is_standard(path) => {
-                    if goes_nowhere() {
-                        say(
-                            "note: standard output is closed or /dev/null: the contour is kept nowhere",
-                        );
-                    }
-                    printed.push_str(&shapes::to_text(&found));
-                }
-                Some(path) => shapes::save(&found, path)?,
-                None => {}
-            }
-            if let (Some(path), Some(picture)) = (&self.overlay, &scene.picture) {
-                let start = first.shapes();
-                let start = start.iter().map(|curve| (curve, START));
-                let found = found.iter().map(|curve| (curve, FOUND));
-                let drawn = start.chain(found);
-                let curves: Vec<_> = drawn
-                    .map(|(curve, color)| (curve.first(), curve.closed == Some(true), color))
-                    .collect();
-                paint::save_png(&paint::overlay(picture, &curves), path)?;
-            }
+            let (start, found) = (first.shapes(), last.shapes());
+            printed.push_str(&self.curves(scene.picture.as_deref(), &start, &found)?);
         }
         put(&printed)
+    }
+
+    /// Write the curves found, and the picture with them and those of the start over it; what goes to standard
+    /// output is given back.
+    pub(crate) fn curves(
+        &self,
+        picture: Option<&Picture>,
+        start: &[Shape],
+        found: &[Shape],
+    ) -> Result<String, SceneError> {
+        let mut printed = String::new();
+        match &self.contour {
+            Some(_) if found.is_empty() => say("no curve is left: no contour is written"),
+            Some(path) if is_standard(path) => {
+                if goes_nowhere() {
+                    say(
+                        "note: standard output is closed or /dev/null: the contour is kept nowhere",
+                    );
+                }
+                printed.push_str(&shapes::to_text(found));
+            }
+            Some(path) => shapes::save(found, path)?,
+            None => {}
+        }
+        if let (Some(path), Some(picture)) = (&self.overlay, picture) {
+            let start = start.iter().map(|curve| (curve, START));
+            let found = found.iter().map(|curve| (curve, FOUND));
+            let drawn = start.chain(found);
+            let curves: Vec<_> = drawn
+                .map(|(curve, color)| (curve.first(), curve.closed == Some(true), color))
+                .collect();
+            paint::save_png(&paint::overlay(picture, &curves), path)?;
+        }
+        Ok(printed)
     }
 }

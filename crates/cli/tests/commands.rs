@@ -370,7 +370,7 @@ fn kinds_of_force_are_listed_refused_and_fitted_with() {
     assert!(widest <= Some(100), "{widest:?}");
     let center = [48.0, 48.0];
     folder.write("disc.pgm", disc(96, center, 25.0));
-    folder.write("c.csv", circle(center, 40.0, 12, 1.0));
+    folder.write("c.csv", circle(center, 45.0, 12, 1.0));
     let field = ["field", "disc.pgm", "--out", "out", "--kind"];
     folder.refused(&[&field[..], &["gvff"]].concat(), &["--kind", "\"gvf\""]);
     let gravity = "{ kind = \"gravity\", acceleration = [0, 1] }";
@@ -379,7 +379,7 @@ fn kinds_of_force_are_listed_refused_and_fitted_with() {
     folder.refused(&[&fit[..], &["edg"]].concat(), &["--force", "\"edge\""]);
     let wide = "{ kind = \"edge\", sigma = -1 }";
     folder.refused(&[&fit[..], &[wide]].concat(), &["--force edge: sigma"]);
-    // the edge force does not reach fifteen pixels, these do
+    // the edge force does not reach twenty pixels, these do
     let reached = |args: &[&str]| {
         let answer = folder.snake(&[&["fit", "disc.pgm", "--from", "c.csv"], args].concat());
         off(&shapes::parse_one(&answer.out).unwrap(), center, 25.0)

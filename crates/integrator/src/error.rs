@@ -12,6 +12,12 @@ pub enum SchemeError {
         /// The step given.
         dt: f64,
     },
+    /// A longest way of a step that is zero, negative, infinite or NaN.
+    #[error("the longest way of a step must be finite and above 0, got {reach}")]
+    BadReach {
+        /// The way given.
+        reach: f64,
+    },
     /// A step with which the scheme blows up.
     #[error(
         "a step of {} is too large for {scheme}: must be at most {}, the largest stable step",

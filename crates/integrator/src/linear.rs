@@ -28,16 +28,9 @@ pub(crate) struct LinearlyImplicit {
     clock: Clock,
     /// Without the slope: for contacts, and for systems that know none.
     solver: Solver,
-    correction: Option<Correction>,
-    /// The matrix with the slopes in it, x and y of each node in turn.
-    wide: Banded,
-    /// Its factor, made anew in the same memory each step.
-    factor: Option<BandedFactor>,
-    slope: Vec<DMat2>,
+    sloped: Sloped,
     force: Vec<DVec2>,
     external: Vec<DVec2>,
-    /// x and y of each node in turn.
-    flat: Vec<f64>,
     next_x: Vec<DVec2>,
     next_v: Vec<DVec2>,
     contacts: Contacts,
@@ -59,53 +52,13 @@ impl LinearlyImplicit {
         Ok(Self {
             clock: Clock::new(state, dt),
             solver: Solver::new(Self::NAME, Mass::Optional, system, weights)?,
-            correction: Correction::new(system.stiffness())?,
-            wide: coupled(system.stiffness().band())?,
-            factor: None,
-            slope: vec![DMat2::ZERO; n],
+            sloped: Sloped::new(system)?,
             force: zeros(),
             external: zeros(),
-            flat: vec![0.0; 2 * n],
             next_x: zeros(),
             next_v: zeros(),
             contacts: Contacts::new(n),
         })
-    }
-
-    /// Solve with the slopes in the matrix; `force` becomes the increment.
-    fn solve(&mut self, system: &dyn System) -> Result<(), SchemeError> {
-        let band = self.solver.matrix().band();
-        let n = self.force.len();
-        let held = system.held();
-        if self.wide.half_width() != 2 * band.half_width() {
-            self.wide = coupled(band)?;
-        }
-        for i in 0..n {
-            let pull = if held[i] {
-                DMat2::ZERO
-            } else {
-                pulling(self.slope[i])
-            };
-            set_rows(&mut self.wide, band, i, pull);
-        }
-        match &mut self.factor {
-            Some(factor) => factor.renew(&self.wide)?,
-            none => *none = Some(BandedFactor::new(&self.wide)?),
-        }
-        let Some(factor) = &self.factor else {
-            return Ok(());
-        };
-        for (i, force) in self.force.iter().enumerate() {
-            (self.flat[2 * i], self.flat[2 * i + 1]) = (force.x, force.y);
-        }
-        factor.solve_scalars(&mut self.flat);
-        if let Some(correction) = &self.correction {
-            correction.apply(factor, &mut self.flat)?;
-        }
-        for (i, force) in self.force.iter_mut().enumerate() {
-            *force = DVec2::new(self.flat[2 * i], self.flat[2 * i + 1]);
-        }
-        Ok(())
     }
 }
 
@@ -117,19 +70,24 @@ impl Stepper for LinearlyImplicit {
     fn step(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Fault> {
         let (dt, t) = (self.clock.dt, self.clock.now());
         if self.solver.advance(system, t, &state.x)? {
-            let correction = Correction::new(system.stiffness());
-            self.correction = correction.map_err(|_| stepper::unsolvable(&state.x))?;
+            let renewed = self.sloped.renew(system);
+            renewed.map_err(|_| stepper::unsolvable(&state.x))?;
         }
         stepper::external(system, t, &state.x, &state.v, &mut self.external)?;
-        let known =
-            !system.external_is_constant() && system.external_slope(t, &state.x, &mut self.slope);
+        let known = self.sloped.look(system, t, &state.x);
         system.elastic(&state.x, &mut self.force);
         for i in 0..state.len() {
             self.force[i] += self.external[i] + system.mass()[i] / dt * state.v[i];
         }
         stepper::release(system.held(), &mut self.force);
         if known {
-            self.solve(system)
+            self.sloped
+                .solve(
+                    self.solver.matrix(),
+                    system.held(),
+                    Counts::PullingBack,
+                    &mut self.force,
+                )
                 .map_err(|_| stepper::unsolvable(&state.x))?;
         } else {
             self.solver.solve(&mut self.force);
@@ -162,6 +120,97 @@ impl Stepper for LinearlyImplicit {
     }
 }
 
+/// How much of a slope is in the matrix.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Counts {
+    /// What pulls back.
+    PullingBack,
+    /// What pushes away too.
+    All,
+}
+
+/// The matrix of a step with the slopes of the external force in it.
+#[derive(Debug, Clone)]
+pub(crate) struct Sloped {
+    correction: Option<Correction>,
+    /// The matrix, x and y of each node in turn.
+    wide: Banded,
+    /// Its factor, made anew in the same memory each step.
+    factor: Option<BandedFactor>,
+    slope: Vec<DMat2>,
+    /// x and y of each node in turn.
+    flat: Vec<f64>,
+}
+
+impl Sloped {
+    pub(crate) fn new(system: &dyn System) -> Result<Self, SchemeError> {
+        let n = system.len();
+        Ok(Self {
+            correction: Correction::new(system.stiffness())?,
+            wide: coupled(system.stiffness().band())?,
+            factor: None,
+            slope: vec![DMat2::ZERO; n],
+            flat: vec![0.0; 2 * n],
+        })
+    }
+
+    /// The stiffness of the system has changed.
+    pub(crate) fn renew(&mut self, system: &dyn System) -> Result<(), SchemeError> {
+        self.correction = Correction::new(system.stiffness())?;
+        Ok(())
+    }
+
+    /// Ask for the slopes at `x`; false where the system knows none or its force is constant.
+    pub(crate) fn look(&mut self, system: &mut dyn System, t: f64, x: &[DVec2]) -> bool {
+        !system.external_is_constant() && system.external_slope(t, x, &mut self.slope)
+    }
+
+    /// Solve with `matrix` and the slopes last asked for, or what pulls back of them; `force` becomes the
+    /// increment.
+    ///
+    /// Refused where the matrix is not positive definite, which cannot be if only what pulls back counts.
+    pub(crate) fn solve(
+        &mut self,
+        matrix: &Operator,
+        held: &[bool],
+        counts: Counts,
+        force: &mut [DVec2],
+    ) -> Result<(), SchemeError> {
+        let band = matrix.band();
+        if self.wide.half_width() != 2 * band.half_width() {
+            self.wide = coupled(band)?;
+        }
+        for i in 0..force.len() {
+            let pull = if held[i] {
+                DMat2::ZERO
+            } else if counts == Counts::All {
+                symmetric(self.slope[i])
+            } else {
+                pulling(self.slope[i])
+            };
+            set_rows(&mut self.wide, band, i, pull);
+        }
+        match &mut self.factor {
+            Some(factor) => factor.renew(&self.wide)?,
+            none => *none = Some(BandedFactor::new(&self.wide)?),
+        }
+        let Some(factor) = &self.factor else {
+            return Ok(());
+        };
+        for (i, force) in force.iter().enumerate() {
+            (self.flat[2 * i], self.flat[2 * i + 1]) = (force.x, force.y);
+        }
+        factor.solve_scalars(&mut self.flat);
+        if let Some(correction) = &self.correction {
+            correction.apply(factor, &mut self.flat)?;
+        }
+        for (i, force) in force.iter_mut().enumerate() {
+            *force = DVec2::new(self.flat[2 * i], self.flat[2 * i + 1]);
+        }
+        Ok(())
+    }
+}
+
 /// Room for the band with x and y of each node coupled.
 fn coupled(band: &Band) -> Result<Banded, SchemeError> {
     let (n, width) = (band.len(), band.half_width());
@@ -186,6 +235,17 @@ fn set_rows(wide: &mut Banded, band: &Band, i: usize, pull: DMat2) {
     wide.set_row(row + 1, y, beside);
     beside[0] = between;
     wide.set_row(row, x, beside);
+}
+
+/// The symmetric part of a slope; zero where it is no number.
+fn symmetric(slope: DMat2) -> DMat2 {
+    let b = 0.5 * (slope.x_axis.y + slope.y_axis.x);
+    let whole = DMat2::from_cols(DVec2::new(slope.x_axis.x, b), DVec2::new(b, slope.y_axis.y));
+    if whole.is_finite() {
+        whole
+    } else {
+        DMat2::ZERO
+    }
 }
 
 /// The symmetric part of a slope without its positive eigenvalues.

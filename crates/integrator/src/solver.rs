@@ -94,6 +94,17 @@ impl Solver {
         Ok(())
     }
 
+    /// Use other `p` and `q` from now on.
+    pub(crate) fn reweigh(
+        &mut self,
+        system: &dyn System,
+        weights: (f64, f64),
+        x: &[DVec2],
+    ) -> Result<(), Fault> {
+        self.weights = weights;
+        self.rebuild(system, x)
+    }
+
     /// The mass of each node, and the one they share, if they do.
     pub(crate) fn masses<'a>(&self, system: &'a dyn System) -> ([&'a [f64]; 1], Option<[f64; 1]>) {
         ([system.mass()], self.mass.map(|mass| [mass]))

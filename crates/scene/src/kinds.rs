@@ -1,11 +1,16 @@
 //! The kinds of force by name: what `snake list forces` shows, and one picked on a command line.
 
+use std::sync::Arc;
+
 use field::Polarity;
+use fit::force::Sight;
+use fit::{FitForce, MakeForce};
+use glam::DVec2;
+use snake::Acting;
 
 use crate::SceneError;
 use crate::error::{clip, meant};
-use crate::file::{CommonText, EdgeText, ForceText, KindText, PolarityText, WORDS};
-use crate::meaning::force;
+use crate::file::{ForceText, KindText, PolarityText, WORDS};
 
 /// A kind of force that a scene can name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -102,20 +107,9 @@ impl ForceChoice {
             })
     }
 
-    pub(crate) fn edge(sigma: f64, strength: f64) -> Self {
-        let edge = EdgeText {
-            sigma: Some(sigma),
-            strength: Some(strength),
-            polarity: None,
-        };
-        Self(ForceText {
-            kind: KindText::Edge(edge),
-            common: CommonText::default(),
-        })
-    }
-
     /// The same with that polarity, if it is an edge force and does not say.
-    pub(crate) fn with_polarity(mut self, polarity: Polarity) -> Self {
+    #[must_use]
+    pub fn with_polarity(mut self, polarity: Polarity) -> Self {
         if let KindText::Edge(edge) = &mut self.0.kind {
             edge.polarity.get_or_insert(match polarity {
                 Polarity::DarkToBright => PolarityText::DarkToBright,
@@ -138,10 +132,23 @@ impl ForceChoice {
         force::is_region(&self.0.kind)
     }
 
+    /// This force for a fit: made once the curve is known.
+    #[must_use]
+    pub fn for_fit(self) -> FitForce {
+        FitForce::Made(Arc::new(self))
+    }
+
     /// The name of its kind.
     #[must_use]
     pub const fn kind(&self) -> &'static str {
         self.0.kind.word()
+    }
+}
+
+impl MakeForce for ForceChoice {
+    /// Errors begin with the name of the kind and the key of the value.
+    fn make(&self, sight: &Sight, nodes: &[DVec2], closed: bool) -> Result<Vec<Acting>, String> {
+        force::made(&self.0, sight, nodes, closed).map_err(|error| error.to_string())
     }
 }
 

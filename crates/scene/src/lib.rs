@@ -22,10 +22,8 @@
 mod catalogue;
 mod company;
 mod error;
-mod evidence;
 mod fields;
 mod file;
-mod fit;
 mod hand;
 mod kinds;
 mod limits;
@@ -40,18 +38,19 @@ mod toml_error;
 pub use catalogue::{APPLE_DISTURBING, SCENES, contour, headline, picture};
 pub use company::Company;
 pub use error::SceneError;
-pub use evidence::{Evidence, Narrow};
 pub use fields::Fields;
-pub use fit::Fit;
+pub use fit::force::Computing;
+pub use fit::{Evidence, Narrow};
+pub use meaning::fit_image;
 pub use hand::Hand;
 pub use kinds::{FORCES, ForceChoice, ForceKind};
-pub use meaning::Computing;
 pub use record::{Frame, Record};
 pub use scene::{Plan, Recording, Scene, View};
 pub use text::SceneText;
 
 pub use elastic;
 pub use field;
+pub use fit;
 pub use integrator;
 pub use snake;
 

@@ -15,8 +15,6 @@ pub(crate) const MOST_IN_ALL: usize = 1 << 21;
 /// Snakes times forces and walls of each: every snake has its own list of them.
 pub(crate) const MOST_FORCES: usize = 1 << 20;
 
-/// Pixels of all force fields of a scene together, 16 bytes each: 2 GiB. One field is always made.
-pub(crate) const MOST_FIELDS: u64 = 1 << 27;
 
 /// Pixels up to which a scene's field is made as a whole, in doubles, unless it says otherwise: 2048 × 2048.
 pub(crate) const USUALLY_WHOLE: u64 = 1 << 22;
@@ -27,12 +25,6 @@ pub(crate) const MOST_DRAWN: u64 = 1 << 22;
 
 /// Corners of a drawn road: each pixel asks every stretch.
 pub(crate) const MOST_CORNERS: usize = 64;
-
-/// Pixels times taps of a smoothing along one axis: about half a minute of work.
-pub(crate) const MOST_SMOOTHING: f64 = 1.7e10;
-
-/// Points of the transform behind vector field convolution: 16 bytes each, three times.
-pub(crate) const MOST_CONVOLUTION: f64 = 2.7e8;
 
 /// Steps of a run: days of work for the smallest snake.
 pub(crate) const MOST_STEPS: u64 = 1_000_000_000;

@@ -4,14 +4,16 @@
 
 use std::io::Cursor;
 use std::path::Path;
+use std::sync::Arc;
 
 use field::{EdgeForce, Grid, Smoothing};
 use glam::DVec2;
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, Rgb};
 use io::Picture;
-use io::shapes::Shape;
+use scene::fit::force::{Edge, ImageForceKind};
+use scene::fit::{Contour, FitError, OptionKey, Options, Prepared};
 use scene::snake::ImageForce;
-use scene::{Computing, Fit, ForceChoice, Scene};
+use scene::{Computing, ForceChoice, Scene};
 
 const SIZE: (u32, u32) = (300, 200);
 
@@ -51,30 +53,25 @@ fn pictures() -> [(&'static str, Picture); 4] {
     ]
 }
 
-fn circle(center: DVec2, radius: f64) -> Shape {
-    let turn = |i: i32| DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / 60.0);
-    let points = (0..60).map(|i| center + radius * turn(i)).collect();
-    Shape::curve(points, Some(true))
+fn prepared(picture: &Picture, options: &Options) -> Result<Prepared, FitError> {
+    Prepared::of(&scene::fit_image(&Arc::new(picture.clone())), options)
 }
 
-fn fit(computing: Computing, sigma: f64) -> Fit {
-    Fit {
+fn usual(computing: Computing, sigma: f64) -> Options {
+    Options {
         computing,
         sigma,
-        ..Fit::default()
+        ..Options::default()
     }
 }
 
 #[test]
 fn a_lazy_field_is_within_its_bound_of_the_whole_one_whatever_the_pixels() {
-    let around = circle(DVec2::new(147.0, 102.0), 44.0);
     for (what, picture) in pictures() {
         for sigma in [1.0, 10.0_f64.sqrt(), 8.0] {
-            let field = |computing| {
-                let scene = fit(computing, sigma).scene(picture.clone(), &around);
-                scene.unwrap().field.unwrap()
-            };
-            let (lazy, whole) = (field(Computing::Lazy), field(Computing::Whole));
+            let made = |computing| prepared(&picture, &usual(computing, sigma)).unwrap();
+            let (lazy, whole) = (made(Computing::Lazy), made(Computing::Whole));
+            let (lazy, whole) = (lazy.field().unwrap(), whole.field().unwrap());
             assert!(lazy.tiles_computed().is_some() && whole.tiles_computed().is_none());
             // the gain of a fit: 6 on 120 levels; contrasts here are above 100
             let bound = 1e-6 * 6.0 * 120.0 / 100.0 * 255.0;
@@ -90,13 +87,12 @@ fn a_lazy_field_is_within_its_bound_of_the_whole_one_whatever_the_pixels() {
 
 #[test]
 fn a_lazy_fit_ends_where_a_whole_one_does_and_looks_at_a_few_tiles() {
-    let around = circle(DVec2::new(147.0, 102.0), 44.0);
+    let around = Contour::circle(DVec2::new(147.0, 102.0), 44.0);
     for (what, picture) in pictures() {
         let run = |computing| {
-            let scene = fit(computing, 3.0).scene(picture.clone(), &around).unwrap();
-            let record = scene.run(&mut |_| std::ops::ControlFlow::Continue(()));
-            let end = record.unwrap().last().unwrap().nodes().to_vec();
-            (end, scene.field.unwrap().tiles_computed())
+            let prepared = prepared(&picture, &usual(computing, 3.0)).unwrap();
+            let end = prepared.fit(&around).unwrap().contour.points;
+            (end, prepared.field().unwrap().tiles_computed())
         };
         let ((lazy, tiles), (whole, none)) = (run(Computing::Auto), run(Computing::Whole));
         assert!(matches!(tiles, Some(1..=6)) && none.is_none(), "{tiles:?}");
@@ -114,12 +110,11 @@ fn a_lazy_fit_ends_where_a_whole_one_does_and_looks_at_a_few_tiles() {
 
 #[test]
 fn the_contrast_of_kept_pixels_is_that_of_their_levels() {
-    let around = circle(DVec2::new(147.0, 102.0), 44.0);
     for (what, picture) in pictures() {
         let (levels, kept) = (Picture::from_levels(picture.levels().clone()), picture);
         let largest = |picture: &Picture| {
-            let scene = fit(Computing::Whole, 3.0).scene(picture.clone(), &around);
-            scene.unwrap().field.unwrap().largest()
+            let prepared = prepared(picture, &usual(Computing::Whole, 3.0)).unwrap();
+            prepared.field().unwrap().largest()
         };
         // the gain is made of it
         assert_eq!(largest(&levels), largest(&kept), "{what}");
@@ -130,7 +125,6 @@ fn the_contrast_of_kept_pixels_is_that_of_their_levels() {
 
 #[test]
 fn lazy_is_refused_by_name_where_it_will_not_do_and_left_alone_otherwise() {
-    let around = circle(DVec2::new(147.0, 102.0), 44.0);
     let [(_, picture), ..] = pictures();
     let mask = Picture::from_levels(Grid::from_shape_fn((200, 300), |(_, x)| x as f64));
     let masked = picture.clone().with_mask(&mask).unwrap();
@@ -141,21 +135,22 @@ fn lazy_is_refused_by_name_where_it_will_not_do_and_left_alone_otherwise() {
         (&faint, 3.0, "contrast"),
         (&picture, 30.0, "18"),
     ] {
-        let error = fit(Computing::Lazy, sigma).scene(picture.clone(), &around);
-        let error = error.unwrap_err().to_string();
-        assert!(
-            error.contains("--computed") && error.contains(says),
-            "{error}"
-        );
-        let scene = fit(Computing::Auto, sigma).scene(picture.clone(), &around);
-        assert_eq!(scene.unwrap().field.unwrap().tiles_computed(), None);
+        let error = prepared(picture, &usual(Computing::Lazy, sigma)).unwrap_err();
+        assert_eq!(error.key, OptionKey::Computing);
+        assert!(error.to_string().contains(says), "{error}");
+        let made = prepared(picture, &usual(Computing::Auto, sigma)).unwrap();
+        assert_eq!(made.field().unwrap().tiles_computed(), None);
     }
-    // the same for an edge force by its kind, which is one field less in memory
-    let mut by_kind = fit(Computing::Auto, 3.0);
-    by_kind.forces = vec![ForceChoice::parse("edge").unwrap()];
-    let world = by_kind.scene(picture, &around).unwrap();
-    let forces = &world.snake.world().forces;
-    let field = forces[0].downcast::<ImageForce>().unwrap();
+    // the same for an edge force by its kind
+    let forces = vec![ForceChoice::parse("edge").unwrap().for_fit()];
+    let by_kind = Options {
+        forces,
+        ..usual(Computing::Auto, 3.0)
+    };
+    let prepared = prepared(&picture, &by_kind).unwrap();
+    let kind = ImageForceKind::Edge(Edge::default());
+    let made = prepared.sight().forces(&kind).unwrap();
+    let field = made[0].downcast::<ImageForce>().unwrap();
     assert!(field.field().tiles_computed().is_some());
 }
 
@@ -210,24 +205,22 @@ fn a_scene_says_how_its_field_is_computed() {
 fn from_coarse_to_fine_a_fit_arrives_from_where_one_scale_does_not() {
     let [(_, picture), ..] = pictures();
     // 40 pixels is the disc; the edge force reaches about ten
-    let far = circle(DVec2::new(140.0, 104.0), 66.0);
+    let far = Contour::circle(DVec2::new(140.0, 104.0), 66.0);
     let end = |forces: &[&str]| {
-        let forces = forces.iter().map(|f| ForceChoice::parse(f).unwrap());
-        let fit = Fit {
+        let forces = forces
+            .iter()
+            .map(|f| ForceChoice::parse(f).unwrap().for_fit());
+        let options = Options {
             forces: forces.collect(),
             tension: 5.0,
             rigidity: 20.0,
-            ..Fit::default()
+            ..Options::default()
         };
-        let scene = fit.scene(picture.clone(), &far).unwrap();
-        let record = scene.run(&mut |_| std::ops::ControlFlow::Continue(()));
-        let record = record.unwrap();
-        let nodes = record.last().unwrap().nodes().to_vec();
+        let found = prepared(&picture, &options).unwrap().fit(&far).unwrap();
         let off = |p: &DVec2| (p.distance(DVec2::new(150.0, 100.0)) - 40.0).abs();
-        (
-            nodes.iter().map(off).fold(0.0, f64::max),
-            record.last().unwrap().t,
-        )
+        let nodes = found.contour.points.iter();
+        let time = found.steps as f64 * found.chosen.step;
+        (nodes.map(off).fold(0.0, f64::max), time)
     };
     let ((one, _), (all, t)) = (end(&[]), end(&["coarse-to-fine"]));
     assert!(one > 10.0 && all < 0.5, "{one}, {all}");

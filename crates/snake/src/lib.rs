@@ -86,7 +86,7 @@ pub use rest::Rest;
 pub use schedule::{Schedule, Schedules};
 pub use settling::{Settling, TimeToRest};
 pub use simulation::{
-    Contact, Edit, Entry, Event, EventKind, Member, Plastic, RuleKey, Rules, Simulation,
+    Contact, Edit, Entry, Event, EventKind, Member, Plastic, RuleKey, Rules, Run, Simulation,
     SimulationError, Stepping, Upkeep,
 };
 pub use snake::Snake;

@@ -22,6 +22,7 @@ pub use contact::Contact;
 pub use edit::Edit;
 pub use remesh::{Event, EventKind, Plastic, Upkeep};
 pub use rules::{Entry, RuleKey, Rules, SimulationError, Stepping};
+pub use run::Run;
 
 use std::ops::ControlFlow;
 
@@ -235,7 +236,8 @@ impl Simulation {
         };
         simulation.meetings.count(rules.energies);
         rules.upkeep.validate()?;
-        if stepping.each && (entries.len() > 1 || rules.contact.is_some()) {
+        let own = stepping.each || stepping.relax.is_some();
+        if own && (entries.len() > 1 || rules.contact.is_some()) {
             return Err(SimulationError::Unshared);
         }
         if let Some(contact) = &rules.contact {
@@ -266,15 +268,18 @@ impl Simulation {
             scheme,
             dt,
             tolerance,
+            relax,
             force,
             ..
         } = self.stepping;
-        // sub-steps stay below the limit by themselves
+        // sub-steps stay below the limit by themselves, and what relaxes has none
         let force = force || tolerance.is_some();
-        entry
-            .snake
-            .check_step(scheme, dt, force)
-            .map_err(|error| SimulationError::Scheme { member, error })?;
+        if relax.is_none() {
+            entry
+                .snake
+                .check_step(scheme, dt, force)
+                .map_err(|error| SimulationError::Scheme { member, error })?;
+        }
         if let Some((tips, every)) = &entry.tips {
             tips.validate(&entry.snake)?;
             if *every == 0 || tolerance.is_some() {
@@ -437,7 +442,8 @@ impl Simulation {
         let (begin, first) = self.begin;
         let share = (self.step - first) as f64 + part as f64 / self.parts as f64;
         let t = begin + share * self.stepping.dt;
-        let counted = self.stepping.scheme != Scheme::Report && !self.stepping.each;
+        let own = self.stepping.each || self.stepping.relax.is_some();
+        let counted = self.stepping.scheme != Scheme::Report && !own;
         for member in &mut self.members {
             let id = member.id;
             let fault = |fault| SimulationError::Fault { member: id, fault };

@@ -14,13 +14,12 @@ const MOST_LINES: usize = 600;
 const REASON: &str = "Long because";
 
 /// Files longer than [`LINES`] that do not say why yet.
-const LONG_TODAY: [&str; 28] = [
+const LONG_TODAY: [&str; 27] = [
     "crates/cli/tests/bad_numbers.rs",
     "crates/cli/tests/commands.rs",
     "crates/elastic/tests/kernel.rs",
     "crates/field/src/sample/many.rs",
     "crates/integrator/src/adaptive.rs",
-    "crates/scene/src/meaning/force/mod.rs",
     "crates/scene/src/file/mod.rs",
     "crates/scene/src/scene.rs",
     "crates/scene/tests/bodies.rs",
@@ -53,14 +52,15 @@ const WIDE_TODAY: [&str; 1] = ["crates/integrator/src/adaptive.rs: new"];
 /// Names a crate may export.
 const EXPORTS: usize = 20;
 /// Crates that export more, and how many.
-const EXPORTS_TODAY: [(&str, usize); 8] = [
+const EXPORTS_TODAY: [(&str, usize); 9] = [
     ("banded", 24),
     ("elastic", 43),
-    ("field", 78),
-    ("integrator", 25),
+    ("field", 80),
+    ("fit", 24),
+    ("integrator", 26),
     ("outline", 38),
     ("scene", 27),
-    ("snake", 55),
+    ("snake", 58),
     ("sandbox", 47),
 ];
 

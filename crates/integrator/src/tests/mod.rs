@@ -8,4 +8,5 @@ mod exact;
 mod order;
 mod recurrence;
 mod refusal;
+mod relaxation;
 mod stability;

@@ -139,6 +139,13 @@ impl Picture {
         self.levels.get_or_init(levels)
     }
 
+    /// The grey level of one pixel, without those of the others.
+    #[must_use]
+    pub fn level_at(&self, x: usize, y: usize) -> f64 {
+        let kept = self.pixels.level_at(x, y);
+        kept.unwrap_or_else(|| self.levels()[[y, x]])
+    }
+
     /// The picture as a person sees it: eight bits as they are; deeper ones from their 2nd to their 98th percentile.
     #[must_use]
     pub fn display(&self) -> &RgbImage {
@@ -232,15 +239,6 @@ impl Picture {
         (0..3).filter_map(|c| self.pixels.channel(c)).collect()
     }
 
-    /// Whether it is the same everywhere, in every channel, over the pixels that count.
-    #[must_use]
-    pub fn is_constant(&self) -> bool {
-        if self.valid.is_none() && (self.color || self.levels.get().is_none()) {
-            return self.pixels.is_constant();
-        }
-        !self.channels().iter().any(|c| self.contrast(c) > 0.0)
-    }
-
     /// What people should know of it: how it was stored, what of the file was taken.
     #[must_use]
     pub fn notes(&self) -> &[String] {
@@ -298,29 +296,9 @@ impl Picture {
     pub fn grey_limits(&self) -> [f64; 4] {
         match (&self.valid, self.levels.get()) {
             (None, None) => self.pixels.limits().unwrap_or_default(),
-            (None, Some(levels)) => pixels::limits_of(|| levels.iter().copied()),
-            (Some(valid), _) => pixels::limits_of(|| {
+            (None, Some(levels)) => field::level_limits(|| levels.iter().copied()),
+            (Some(valid), _) => field::level_limits(|| {
                 let both = self.levels().iter().zip(valid);
-                both.filter(|(_, ok)| **ok).map(|(&v, _)| v)
-            }),
-        }
-    }
-
-    /// Spread of its levels: from the 2nd to the 98th percentile, or where these are one, from the
-    /// least to the largest. 0 for a constant.
-    #[must_use]
-    pub fn spread(&self) -> f64 {
-        pixels::spread_of(self.grey_limits())
-    }
-
-    /// Spread of a grid of this picture's size: from the 2nd to the 98th percentile of what counts, or where
-    /// these are one, from the least to the largest. 0 for a constant.
-    #[must_use]
-    pub fn contrast(&self, grid: &Grid) -> f64 {
-        match &self.valid {
-            None => pixels::spread(|| grid.iter().copied()),
-            Some(valid) => pixels::spread(|| {
-                let both = grid.iter().zip(valid);
                 both.filter(|(_, ok)| **ok).map(|(&v, _)| v)
             }),
         }

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use field::{EdgeForce, FieldError, ForceField, Grid, Recipe, lazy_force};
+use field::{EdgeForce, FieldError, ForceField, Grid, Recipe, lazy_force, level_limits};
 use image::metadata::Orientation;
 use image::{ImageBuffer, Luma, Rgb, Rgb32FImage, RgbImage, buffer::ConvertBuffer as _};
 use ndarray::{ArcArray2, Array2};
@@ -148,6 +148,27 @@ impl Pixels {
         Grid::from_shape_vec((height, width), list).ok()
     }
 
+    /// The grey level of one pixel; None if levels are kept beside.
+    pub(super) fn level_at(&self, x: usize, y: usize) -> Option<f64> {
+        let at = (as_u32(x), as_u32(y));
+        Some(match self {
+            Self::Bytes(list) => f64::from(list[[y, x]]),
+            Self::Words(list) => f64::from(list[[y, x]]) / WORDS_A_LEVEL,
+            Self::Signed(list) => f64::from(list[[y, x]]) / WORDS_A_LEVEL,
+            Self::Floats(list) => f64::from(list[[y, x]]) * WHITE,
+            Self::Colors(list) => luma(list.get_pixel(at.0, at.1).0.map(f64::from)),
+            Self::DeepColors(list) => {
+                let level = |v: u16| f64::from(v) / WORDS_A_LEVEL;
+                luma(list.get_pixel(at.0, at.1).0.map(level))
+            }
+            Self::FloatColors(list) => {
+                let level = |v: f32| f64::from(v) * WHITE;
+                luma(list.get_pixel(at.0, at.1).0.map(level))
+            }
+            Self::Levels => return None,
+        })
+    }
+
     /// One channel of colors, 0 … 255; None if there is but grey.
     pub(super) fn channel(&self, c: usize) -> Option<Grid> {
         let (width, height) = self.size()?;
@@ -172,24 +193,6 @@ impl Pixels {
             _ => return None,
         };
         Grid::from_shape_vec((height, width), list).ok()
-    }
-
-    /// Whether every channel is the same everywhere.
-    pub(super) fn is_constant(&self) -> bool {
-        fn same<P>(image: &ImageBuffer<P, Vec<P::Subpixel>>) -> bool
-        where
-            P: image::Pixel + PartialEq,
-        {
-            let mut all = image.pixels();
-            let first = all.next();
-            all.all(|p| Some(p) == first)
-        }
-        match self {
-            Self::Colors(list) => same(list),
-            Self::DeepColors(list) => same(list),
-            Self::FloatColors(list) => same(list),
-            _ => with_levels!(self, levels, spread(levels) <= 0.0).unwrap_or(false),
-        }
     }
 
     /// As a person sees them, if that is what they are: of eight bits a pixel or channel.
@@ -254,7 +257,7 @@ impl Pixels {
         }
     }
 
-    /// [`limits_of`] their levels; None if those are kept beside.
+    /// [`level_limits`] of their levels; None if those are kept beside.
     pub(super) fn limits(&self) -> Option<[f64; 4]> {
         match self {
             Self::Bytes(bytes) => {
@@ -267,7 +270,7 @@ impl Pixels {
                 words.iter().for_each(|&v| counts[usize::from(v)] += 1);
                 Some(limits_of_counts(&counts, WORDS_A_LEVEL))
             }
-            _ => with_levels!(self, levels, limits_of(levels)),
+            _ => with_levels!(self, levels, level_limits(levels)),
         }
     }
 }
@@ -287,80 +290,7 @@ fn shown(grey: &ArcArray2<u8>) -> Option<RgbImage> {
     Some(grey.convert())
 }
 
-/// The least, the 2nd and the 98th percentile, and the largest, in this order; zeros where there is none.
-pub(super) fn limits_of<I: Iterator<Item = f64>>(values: impl Fn() -> I) -> [f64; 4] {
-    let mut n = 0;
-    let (mut least, mut largest) = (None, None);
-    for value in values() {
-        n += 1;
-        let below = |other: &f64| value.total_cmp(other).is_lt();
-        if least.as_ref().is_none_or(below) {
-            least = Some(value);
-        }
-        let above = |other: &f64| value.total_cmp(other).is_gt();
-        if largest.as_ref().is_none_or(above) {
-            largest = Some(value);
-        }
-    }
-    let (Some(least), Some(largest)) = (least, largest) else {
-        return [0.0; 4];
-    };
-    let rank = |part: usize| (n - 1) * part / 100;
-    let [low, high] = at_ranks(&values, [rank(2), rank(98)]);
-    [least, low, high, largest]
-}
-
-/// Bits that are told apart at a time.
-const DIGIT: u32 = 16;
-
-/// The values that stand at these ranks in order, found digit by digit: by counting, without a copy of the values.
-fn at_ranks<I: Iterator<Item = f64>>(values: impl Fn() -> I, mut ranks: [usize; 2]) -> [f64; 2] {
-    // numbers whose order is that of `f64::total_cmp`
-    let key = |value: f64| {
-        let bits = value.to_bits();
-        if bits >> 63 == 1 {
-            !bits
-        } else {
-            bits | (1 << 63)
-        }
-    };
-    let mut known = [0_u64; 2];
-    for shift in (0..64 / DIGIT).rev().map(|place| place * DIGIT) {
-        let mut counts = [vec![0_usize; 1 << DIGIT], vec![0_usize; 1 << DIGIT]];
-        for key in values().map(key) {
-            // those that begin as the one that is looked for
-            let begin = key.checked_shr(shift + DIGIT).unwrap_or(0);
-            #[expect(clippy::cast_possible_truncation, reason = "one digit of 16 bits")]
-            let digit = (key >> shift) as u16;
-            for (known, counts) in known.iter().zip(&mut counts) {
-                if begin == *known {
-                    counts[usize::from(digit)] += 1;
-                }
-            }
-        }
-        for ((known, rank), counts) in known.iter_mut().zip(&mut ranks).zip(&counts) {
-            let mut digit = 0_u64;
-            for &count in counts {
-                if *rank < count {
-                    break;
-                }
-                *rank -= count;
-                digit += 1;
-            }
-            *known = (*known << DIGIT) | digit;
-        }
-    }
-    known.map(|key| {
-        let bits = if key >> 63 == 1 {
-            key & !(1 << 63)
-        } else {
-            !key
-        };
-        f64::from_bits(bits)
-    })
-}
-
-/// [`limits_of`] values that occur so often, so many to a level.
+/// [`level_limits`] of values that occur so often, so many to a level.
 fn limits_of_counts(counts: &[usize], values: f64) -> [f64; 4] {
     let n: usize = counts.iter().sum();
     [0, 2, 98, 100].map(|part| {
@@ -372,45 +302,4 @@ fn limits_of_counts(counts: &[usize], values: f64) -> [f64; 4] {
         });
         value.unwrap_or(0) as f64 / values
     })
-}
-
-/// From the 2nd to the 98th percentile, or where these are one, from the least to the largest; 0 for a constant.
-pub(super) fn spread_of([least, low, high, largest]: [f64; 4]) -> f64 {
-    // less than the rounding of colors to grey leaves
-    if largest - least <= 1e-12 * least.abs().max(largest.abs()) {
-        return 0.0;
-    }
-    if high > low {
-        high - low
-    } else {
-        largest - least
-    }
-}
-
-/// [`spread_of`] values.
-pub(super) fn spread<I: Iterator<Item = f64>>(values: impl Fn() -> I) -> f64 {
-    spread_of(limits_of(values))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    proptest! {
-        #[test]
-        fn ranks_are_those_of_the_values_in_order(
-            values in prop::collection::vec(
-                prop_oneof![-1e3..1e3_f64, Just(0.0), Just(-0.0), any::<f64>().prop_filter("finite", |v| v.is_finite())],
-                1..300,
-            ),
-        ) {
-            let mut ordered = values.clone();
-            ordered.sort_by(f64::total_cmp);
-            let last = values.len() - 1;
-            let expected = [0, 2, 98, 100].map(|part| ordered[last * part / 100]);
-            let found = limits_of(|| values.iter().copied());
-            prop_assert_eq!(found.map(f64::to_bits), expected.map(f64::to_bits));
-        }
-    }
 }

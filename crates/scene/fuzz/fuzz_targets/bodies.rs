@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use io::{Picture, shapes};
-use scene::{Fit, Scene, SceneText, field};
+use scene::fit::{self, Image, Nodes, Options};
+use scene::{Scene, SceneText, field};
 
 /// A refusal says something, in few words.
 fn is_short(said: &str, most: usize) {
@@ -22,13 +23,17 @@ pub fn contour(bytes: &[u8]) {
             let again = shapes::parse_one(&shapes::to_text(std::slice::from_ref(&contour)));
             assert!(again.is_ok_and(|again| again == contour));
             let levels = field::Grid::from_shape_fn((8, 8), |(y, x)| (x * y) as f64);
-            let fit = Fit {
-                nodes: Some(12),
+            let options = Options {
+                nodes: Nodes::Count(12),
                 steps: 3,
-                ..Fit::default()
+                ..Options::default()
+            };
+            let start = fit::Contour {
+                points: contour.points,
+                closed: contour.closed.unwrap_or(true),
             };
             // some lie in this picture; most are refused
-            let _ = fit.scene(Picture::from_levels(levels), &contour);
+            let _ = fit::fit(&Image::grey(levels), &start, &options);
         }
         Err(said) => is_short(&said.to_string(), 400),
     }

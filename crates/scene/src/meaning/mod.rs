@@ -3,7 +3,6 @@
 mod body;
 mod company;
 mod drawn;
-mod edge_field;
 mod ends;
 mod files;
 pub(crate) mod force;
@@ -24,7 +23,7 @@ use snake::{Snake, SnakeError, Turning};
 use files::Files;
 use force::Sight;
 
-pub use edge_field::Computing;
+pub use force::image as fit_image;
 pub(crate) use hand::force_now;
 pub(crate) use plan::USUAL_TOLERANCE;
 pub(crate) use world::{outside, smoothing};
@@ -94,11 +93,12 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         .picture
         .as_ref()
         .map(|p| picture(p, files))
-        .transpose()?;
+        .transpose()?
+        .map(Arc::new);
     if let Some(picture) = &picture {
         world::inside(&start, picture, rules)?;
     }
-    body.maps = map::maps(text, picture.as_ref(), files)?;
+    body.maps = map::maps(text, picture.as_deref(), files)?;
     let mut notes = Vec::new();
     notes.extend(picture.iter().flat_map(|p| p.notes().to_vec()));
     let sight = picture.as_ref().map(Sight::of).transpose()?;
@@ -107,9 +107,9 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
     let (world, field) = world::world(text, rules, sight.as_ref(), &start.x, closed)?;
     let (mut grips, world) = hand::own(text, world, &body, &start)?;
     let mut snake = Snake::new(body, world).map_err(|e| refused("snake", &e))?;
-    ends::slide(text, &mut snake, &start, picture.as_ref())?;
+    ends::slide(text, &mut snake, &start, picture.as_deref())?;
     body::damp(text, &mut snake, &start)?;
-    let tips = ends::tips(text, &snake, picture.as_ref())?;
+    let tips = ends::tips(text, &snake, picture.as_deref())?;
     let terms = body::terms(text)?;
     if terms.is_some() {
         Turning::new(&snake).map_err(|e| SceneError::key("snake.frame", e))?;
@@ -124,7 +124,7 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         report: text.report.clone(),
         note: text.note.clone(),
         view,
-        picture: picture.map(Arc::new),
+        picture,
         field,
         snake,
         terms,

@@ -4,72 +4,27 @@ use std::sync::Arc;
 
 use elastic::Profile;
 use field::{EdgeForce, FieldError, ForceField, Smoothing};
+use fit::force::Computing;
 use glam::DVec2;
 use integrator::State;
 use snake::{Acting, ImageForce, Sampling, SnakeError, Wall, WallLaw, World};
 
 use super::body::profile;
-use super::edge_field::{Computing, Wanted, edge_field};
 use super::force::{self, Sight};
 use super::{Rules, number};
 use crate::file::{
     BorderText, ComputedText, FieldText, ForceText, LawText, Rule, SceneText, WallText,
 };
-use crate::limits::{MOST_SMOOTHING, MOST_WHOLE};
 use crate::{Picture, SceneError};
 
 /// Refuse a smoothing that would take minutes on a picture of this size, or that makes no sense.
 pub(crate) fn smoothing(
     key: &str,
     smoothing: Smoothing,
-    (width, height): (usize, usize),
+    size: (usize, usize),
 ) -> Result<Smoothing, SceneError> {
-    smoothing.validate().map_err(|e| SceneError::key(key, e))?;
-    if (width * height) as u64 > MOST_WHOLE {
-        let message = format!(
-            "asks for work on all {width}×{height} pixels, of which there may be {MOST_WHOLE}; the plain edge force is \
-             found where it is needed (computed = \"lazy\"), without a mask and up to σ = 18"
-        );
-        return Err(SceneError::key(key, message));
-    }
-    work(key, (width, height), WORK)?;
-    let pixels = (width * height) as f64;
-    // a Gaussian is cut at 8.6 σ on both sides
-    let (value, taps) = match smoothing {
-        Smoothing::Binomial(passes) => (f64::from(passes), 1.0),
-        Smoothing::Gaussian(sigma) => (sigma, 17.2),
-    };
-    if pixels * value * taps <= MOST_SMOOTHING {
-        return Ok(smoothing);
-    }
-    let most = (MOST_SMOOTHING / (pixels * taps)).floor();
-    let message =
-        format!("{value} on {width}×{height} pixels takes too long; at most {most} would do");
-    Err(SceneError::key(key, message))
-}
-
-/// Bytes a pixel that all stages of a force take together.
-const WORK: u64 = 100;
-
-/// Refuse work on a whole picture, of so many bytes a pixel, that there is no memory for.
-pub(super) fn work(
-    key: &str,
-    (width, height): (usize, usize),
-    bytes: u64,
-) -> Result<(), SceneError> {
-    let pixels = (width * height) as u64;
-    let refuse = |message: String| {
-        let message =
-            format!("work on all {width}×{height} pixels {message}; a smaller picture is needed");
-        Err(SceneError::key(key, message))
-    };
-    let most = MOST_WHOLE * WORK / bytes;
-    if pixels > most {
-        return refuse(format!(
-            "takes {bytes} bytes each, for which at most {most} are allowed"
-        ));
-    }
-    crate::limits::room(pixels * bytes).or_else(refuse)
+    let checked = fit::force::check_smoothing(smoothing, size);
+    checked.map_err(|problem| SceneError::key(key, problem))
 }
 
 pub(super) fn force_field(
@@ -113,13 +68,13 @@ pub(super) fn force_field(
                 None => ("field.passes", binomial),
             };
             let gain = gain(usual)? * scale(1.0)?;
-            let computing = f.computed.map(|computed| match computed {
-                ComputedText::Lazy => Computing::Lazy,
-                ComputedText::Whole => Computing::Whole,
-            });
-            let wanted = Wanted::of(computing, [key, "field.computed"]);
+            let computing = match f.computed {
+                None => Computing::Auto,
+                Some(ComputedText::Lazy) => Computing::Lazy,
+                Some(ComputedText::Whole) => Computing::Whole,
+            };
             let rule = EdgeForce { smoothing, gain };
-            edge_field(picture, sight.true_contrast(), rule, &wanted)
+            sight.edge_field(rule, computing, [key, "field.computed"])
         }
     }
 }

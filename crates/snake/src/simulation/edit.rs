@@ -83,7 +83,8 @@ impl Simulation {
     ///
     /// As [`Simulation::new`]; then nothing has changed.
     pub fn add(&mut self, entry: Entry) -> Result<usize, SimulationError> {
-        if self.stepping.each && !self.members.is_empty() {
+        let own = self.stepping.each || self.stepping.relax.is_some();
+        if own && !self.members.is_empty() {
             return Err(SimulationError::Unshared);
         }
         let id = self.next_id;

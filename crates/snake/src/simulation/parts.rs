@@ -1,7 +1,7 @@
 //! Into how many parts a step is cut: by the contacts, and by nodes that have come closer to each other.
 
 use glam::DVec2;
-use integrator::{Limit, SchemeError, Start, State, Summary};
+use integrator::{Limit, Relaxation, SchemeError, Start, State, Summary};
 
 use super::run::around;
 use super::{Contact, Simulation, SimulationError, Stepping, longest};
@@ -199,9 +199,14 @@ impl Simulation {
             scheme,
             dt,
             tolerance,
+            relax,
             each,
             ..
         } = self.stepping;
+        if let (Some(reach), None) = (relax, terms) {
+            let relaxation = Relaxation::new(snake, state, dt, reach)?;
+            return Ok((Pace::Fixed(Box::new(relaxation)), 1));
+        }
         let Some(tolerance) = tolerance else {
             let cuts = self.cuts(snake)?;
             let dt = dt / cuts as f64;

@@ -8,6 +8,14 @@ use super::{Member, Simulation, SimulationError};
 use crate::rest::Verdict;
 use crate::{Outcome, Until};
 
+/// A run that has begun: when it is to stop.
+#[derive(Debug, Clone, Copy)]
+pub struct Run {
+    until: Until,
+    /// Steps made before it.
+    begin: u64,
+}
+
 impl Simulation {
     /// Move everything until `until`, showing the simulation to `observer` after every step.
     ///
@@ -25,29 +33,62 @@ impl Simulation {
         until: &Until,
         observer: &mut dyn FnMut(&mut Self) -> ControlFlow<()>,
     ) -> Result<Outcome, SimulationError> {
-        if let Some(rest) = until.rest {
-            self.watch(rest);
-        }
-        let begin = self.step;
-        let over = |t: f64| until.time.is_some_and(|end| t >= end);
-        while self.step - begin < until.steps && !over(self.t) {
-            if let ControlFlow::Break(outcome) = self.step()? {
+        let run = self.start(until);
+        loop {
+            if let Some(outcome) = self.go_on(&run, u64::MAX, observer)? {
                 return Ok(outcome);
+            }
+        }
+    }
+
+    /// Begin a run that is made in parts, with pauses between them: rest is watched for from here on.
+    pub fn start(&mut self, until: &Until) -> Run {
+        match until.rest {
+            Some(rest) => self.watch(rest),
+            None => self.rest = None,
+        }
+        Run {
+            until: *until,
+            begin: self.step,
+        }
+    }
+
+    /// Go on with a run by at most so many steps; None where it has not ended. In parts or at once it is the same to
+    /// the last bit.
+    ///
+    /// # Errors
+    ///
+    /// As [`Simulation::run`].
+    pub fn go_on(
+        &mut self,
+        run: &Run,
+        steps: u64,
+        observer: &mut dyn FnMut(&mut Self) -> ControlFlow<()>,
+    ) -> Result<Option<Outcome>, SimulationError> {
+        let Run { until, begin } = *run;
+        let over = |t: f64| until.time.is_some_and(|end| t >= end);
+        let paused = self.step.saturating_add(steps);
+        while self.step - begin < until.steps && !over(self.t) {
+            if self.step >= paused {
+                return Ok(None);
+            }
+            if let ControlFlow::Break(outcome) = self.step()? {
+                return Ok(Some(outcome));
             }
             let step = self.step;
             let stopped = observer(self).is_break();
             if self.members.is_empty() {
-                return Ok(Outcome::Collapsed { step });
+                return Ok(Some(Outcome::Collapsed { step }));
             }
             if stopped {
-                return Ok(Outcome::Stopped { step });
+                return Ok(Some(Outcome::Stopped { step }));
             }
             let moves = |member: &Member| member.verdict == Verdict::Moving;
             if until.rest.is_some() && !self.members.iter().any(moves) {
-                return Ok(self.end(Outcome::Settled { step }));
+                return Ok(Some(self.end(Outcome::Settled { step })));
             }
         }
-        Ok(self.end(Outcome::Finished { step: self.step }))
+        Ok(Some(self.end(Outcome::Finished { step: self.step })))
     }
 
     /// What makes of this end a bad one, if anything does.

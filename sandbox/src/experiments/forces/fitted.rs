@@ -7,8 +7,8 @@ use crate::demand::{below, judged};
 use crate::draw::{Color, Figure, Line, Panel, Picture};
 use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
 use glam::DVec2;
-use io::shapes::Shape;
-use scene::{Fit, ForceChoice};
+use scene::ForceChoice;
+use scene::fit::{Contour, Image, Options, fit};
 use snake::Outcome;
 
 const ID: &str = "sec-4-2-fit";
@@ -119,6 +119,7 @@ fn near() -> Vec<DVec2> {
 fn run() -> Result<Record, SandboxError> {
     let mut record = Record::default();
     let image = u_shape(ID)?;
+    let picture = Image::grey(image.clone());
     let truth = u_corners();
     let starts = [
         near(),
@@ -141,30 +142,20 @@ fn run() -> Result<Record, SandboxError> {
         for kind in KINDS {
             let forces = kind
                 .split('+')
-                .map(ForceChoice::parse)
+                .map(|text| ForceChoice::parse(text).map(ForceChoice::for_fit))
                 .collect::<Result<Vec<_>, String>>()
                 .map_err(SandboxError::refused(ID))?;
             // the default is no force chosen
-            let fit = Fit {
+            let options = Options {
                 forces: if kind == KINDS[0] { Vec::new() } else { forces },
-                ..Fit::default()
+                ..Options::default()
             };
-            let contour = Shape::curve(start.clone(), Some(true));
-            let picture = io::Picture::from_levels(image.clone());
-            let scene = fit
-                .scene(picture, &contour)
-                .map_err(SandboxError::refused(ID))?;
-            let found = scene
-                .run(&mut |_| std::ops::ControlFlow::Continue(()))
-                .map_err(SandboxError::refused(ID))?;
-            let x = found
-                .frames
-                .last()
-                .map(|frame| frame.nodes().to_vec())
-                .unwrap_or_default();
+            let contour = Contour::closed(start.clone());
+            let found = fit(&picture, &contour, &options).map_err(SandboxError::refused(ID))?;
+            let x = &found.contour.points;
             record.note(
                 format!("{}, {words}: mean distance of the outline", label(kind)),
-                mean_distance(&truth, &x),
+                mean_distance(&truth, x),
                 "px",
                 Tolerance::Relative(0.02),
             );

@@ -1,13 +1,12 @@
 //! Kinds that look at the curve alone: pressures, springs, pushes.
 
 use elastic::signed_area;
+use fit::force::{ImageForceKind, Regions};
 use snake::{Freeze, Path, Pressure, RegionForce, Repulsor, SnakeError, Spring};
 
 use super::{Around, number};
 use crate::SceneError;
-use crate::file::{
-    AreaText, DirectionText, FreezeText, PressureText, RegionsText, RepulsorText, SpringText,
-};
+use crate::file::{AreaText, DirectionText, FreezeText, PressureText, RepulsorText, SpringText};
 
 impl Around<'_> {
     fn at(&self, name: &str) -> String {
@@ -35,8 +34,11 @@ impl Around<'_> {
             None | Some(DirectionText::Given) => Ok(Pressure::constant(k)),
             Some(DirectionText::Picture) => {
                 // what is like the inside is to be inside, wherever the edges are
-                let judge = self.seen()?.regions(&RegionsText::default())?;
-                Ok(Pressure::automatic(k, RegionForce::new(judge)))
+                let regions = ImageForceKind::Regions(Regions::default());
+                let judge = self.seen()?.region(&regions);
+                let judge = judge.map_err(|error| SceneError::key(self.key, error.problem))?;
+                let judge = judge.map(RegionForce::new);
+                Ok(judge.map_or(Pressure::constant(k), |judge| Pressure::automatic(k, judge)))
             }
         }
     }

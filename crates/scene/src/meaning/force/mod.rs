@@ -5,43 +5,22 @@
 //! that exposure does not matter, and at any smoothing.
 
 mod curve;
-mod reach;
-mod region;
+mod kind;
 mod sight;
-mod strength;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 use elastic::Profile;
-use field::{FieldError, ForceField, Grid, Smoothing};
+use fit::force::Sight as Seen;
 use glam::DVec2;
-use snake::{
-    Acting, Energies, Gravity, ImageForce, Pressure, RegionForce, Sampling, Simulation, Turned,
-    World,
-};
+use snake::{Acting, Energies, Gravity, Pressure, Simulation, Turned, World};
 
 use super::body::{profile, straight};
-use super::{number, smoothing};
+use super::number;
+use crate::SceneError;
 use crate::file::{EdgeText, ForceText, KindText, PolarityText};
-use crate::{Picture, SceneError};
-use sight::Seen;
 pub(crate) use sight::Sight;
-
-/// Force of strength 1: a gain of 6 on 120 levels, smoothed with σ² = 10, at its strongest, one σ from the
-/// edge, where the normal density is 0.242. M L T⁻².
-pub(crate) const PULL: f64 = 6.0 * 120.0 / 10.0 * NORMAL_AT_1;
-
-/// e^(−½)/√(2π) and 1/√(2π): the normal density at one σ and at none.
-pub(crate) const NORMAL_AT_1: f64 = 0.241_970_724_519_143_37;
-const NORMAL_AT_0: f64 = 0.398_942_280_401_432_7;
-
-/// A force field with what it is the gradient of.
-pub(crate) struct Made {
-    pub field: ForceField,
-    /// The energy of a point of the curve, per unit of its length, at pixel centers; None if there is none.
-    pub energy: Option<Grid>,
-}
+pub use sight::image;
 
 /// Whether a kind compares what is inside with what is outside.
 pub(crate) const fn is_region(kind: &KindText) -> bool {
@@ -54,90 +33,29 @@ pub(crate) const fn is_region(kind: &KindText) -> bool {
     )
 }
 
-fn above_nothing(contrast: f64) -> f64 {
-    if contrast > 0.0 { contrast } else { 1.0 }
-}
-
-/// A picture, and the key under which a force that looks at it was asked for.
-struct At<'a> {
-    key: &'a str,
-    sight: &'a Sight<'a>,
-}
-
-impl At<'_> {
-    fn key(&self, name: &str) -> String {
-        format!("{}: {name}", self.key)
-    }
-
-    fn refuse(&self) -> impl Fn(FieldError) -> SceneError {
-        let key = self.key.to_owned();
-        move |error| SceneError::key(&key, error)
-    }
-
-    fn above_zero(&self, name: &str, given: Option<f64>, usual: f64) -> Result<f64, SceneError> {
-        number::above_zero(&self.key(name), given.unwrap_or(usual))
-    }
-
-    /// Force at the strongest.
-    fn pull(&self, strength: Option<f64>) -> Result<f64, SceneError> {
-        Ok(PULL * self.above_zero("strength", strength, 1.0)?)
-    }
-
-    /// σ, checked against the size of the picture.
-    fn sigma(&self, given: Option<f64>, usual: f64) -> Result<f64, SceneError> {
-        let sigma = given.unwrap_or(usual);
-        smoothing(
-            &self.key("sigma"),
-            Smoothing::Gaussian(sigma),
-            self.sight.picture.size(),
-        )?;
-        Ok(sigma)
-    }
-
-    /// The grey picture smoothed, over what counts.
-    fn smoothed(&self, sigma: f64) -> Result<Grid, SceneError> {
-        let grey = self.sight.grey(self.key)?;
-        grey.smoothed(Smoothing::Gaussian(sigma))
-            .map_err(self.refuse())
-    }
-
-    /// `gain · ∇P` where pixels count, and its energy `−gain · P`.
-    fn climbing(&self, strength: &Grid, gain: f64) -> Result<Made, SceneError> {
-        let field = self.sight.grey(self.key)?.force(strength, gain);
-        Ok(Made {
-            field: field.map_err(self.refuse())?,
-            energy: Some(strength.mapv(|p| -gain * p)),
-        })
-    }
-}
-
 /// The curve that a force is to act on, and what there is to see.
 pub(crate) struct Around<'a> {
     key: &'a str,
-    sight: Option<&'a Sight<'a>>,
+    sight: Option<&'a Seen>,
     nodes: &'a [DVec2],
     closed: bool,
 }
 
 impl<'a> Around<'a> {
     /// The picture, or a refusal where there is none.
-    fn seen(&self) -> Result<At<'a>, SceneError> {
-        let key = self.key;
-        match self.sight {
-            Some(sight) => Ok(At { key, sight }),
-            None => Err(SceneError::key(
-                &format!("{key}: kind"),
-                "looks at a picture, and there is none",
-            )),
-        }
+    fn seen(&self) -> Result<&'a Seen, SceneError> {
+        self.sight.ok_or_else(|| {
+            let message = "looks at a picture, and there is none";
+            SceneError::key(&format!("{}: kind", self.key), message)
+        })
     }
 
-    fn force(&self, kind: &KindText) -> Result<Acting, SceneError> {
+    /// The force of a kind: one, or one a scale of a schedule.
+    fn forces(&self, kind: &KindText) -> Result<Vec<Acting>, SceneError> {
         if asks_inside(kind) {
             self.closed(kind.word())?;
         }
-        Ok(match kind {
-            KindText::Edge(text) if !either(text) => Acting::new(self.seen()?.signed_edge(text)?),
+        Ok(vec![match kind {
             KindText::Pressure(text) => Acting::new(self.pressure(text)?),
             KindText::Gas(text) => {
                 let (k, area) = self.volume(text)?;
@@ -154,30 +72,8 @@ impl<'a> Around<'a> {
                 let key = format!("{}: acceleration", self.key);
                 Acting::new(Gravity(number::place(&key, text.acceleration)?))
             }
-            _ => {
-                let at = self.seen()?;
-                let made = || {
-                    if let KindText::Edge(text) = kind {
-                        return Ok(Some(Seen::Field(Arc::new(at.felt_edge(text)?))));
-                    }
-                    if let Some(region) = at.sight.region(self.key, kind)? {
-                        return Ok(Some(Seen::Region(region)));
-                    }
-                    let made = at.sight.field(self.key, kind)?;
-                    Ok(made.map(|made| Seen::Field(Arc::new(made.field))))
-                };
-                match at.sight.seen(kind, made)? {
-                    Some(Seen::Region(region)) => Acting::new(RegionForce::new(region)),
-                    Some(Seen::Field(field)) => {
-                        Acting::new(ImageForce::new(field, Sampling::Bilinear))
-                    }
-                    None => {
-                        let message = format!("{} is no field", kind.word());
-                        return Err(SceneError::key(&format!("{}: kind", self.key), message));
-                    }
-                }
-            }
-        })
+            _ => return sight::forces(self.seen()?, self.key, kind),
+        }])
     }
 }
 
@@ -200,18 +96,7 @@ const fn asks_inside(kind: &KindText) -> bool {
     )
 }
 
-/// How many fields, of two numbers a pixel, a kind keeps.
-fn grids(kind: &KindText) -> usize {
-    match kind {
-        KindText::CoarseToFine(scales) => scales.sigmas.as_ref().map_or(4, Vec::len),
-        // a number for each stripe and channel
-        KindText::Texture(_) => 8,
-        KindText::Regions(_) | KindText::LocalRegions(_) | KindText::Likelihood(_) => 2,
-        _ => 1,
-    }
-}
-
-/// The force of a `[[force]]`, or of a `--force`, with its weight and schedule; one for each scale of a schedule of scales.
+/// The force of a `[[force]]`, or of one chosen for a fit, with its weight and schedule; one for each scale of a schedule of scales.
 fn acting(around: &Around<'_>, text: &ForceText) -> Result<Vec<Acting>, SceneError> {
     let (key, n) = (around.key, around.nodes.len());
     if let KindText::CoarseToFine(scales) = &text.kind
@@ -223,10 +108,7 @@ fn acting(around: &Around<'_>, text: &ForceText) -> Result<Vec<Acting>, SceneErr
         let message = format!("coarse-to-fine has one of its own; its hold{hold} would do");
         return Err(SceneError::key(&format!("{key}: schedule"), message));
     }
-    let mut list = match &text.kind {
-        KindText::CoarseToFine(scales) => around.seen()?.coarse_to_fine(scales)?,
-        kind => vec![around.force(kind)?],
-    };
+    let mut list = around.forces(&text.kind)?;
     if let Some(rate) = text.common.spin {
         if matches!(text.kind, KindText::CoarseToFine(_)) {
             let message = "coarse-to-fine does not spin; edge would do";
@@ -235,7 +117,7 @@ fn acting(around: &Around<'_>, text: &ForceText) -> Result<Vec<Acting>, SceneErr
         let rate = number::coordinate(&format!("{key}: spin"), rate)?;
         let about = match (text.common.about, around.sight) {
             (Some(about), _) => number::place(&format!("{key}: about"), about)?,
-            (None, Some(sight)) => middle(sight.picture),
+            (None, Some(sight)) => middle(sight.image().size()),
             (None, None) => {
                 let message = "is missing, and there is no picture to spin about its middle; a place would do";
                 return Err(SceneError::key(&format!("{key}: about"), message));
@@ -275,8 +157,7 @@ fn acting(around: &Around<'_>, text: &ForceText) -> Result<Vec<Acting>, SceneErr
 }
 
 /// The middle of a picture.
-fn middle(picture: &Picture) -> DVec2 {
-    let (width, height) = picture.size();
+fn middle((width, height): (usize, usize)) -> DVec2 {
     0.5 * DVec2::new((width - 1) as f64, (height - 1) as f64)
 }
 
@@ -364,7 +245,7 @@ pub(crate) fn add(
     for (key, text) in keyed {
         let around = Around {
             key,
-            sight,
+            sight: sight.map(Sight::seen),
             nodes,
             closed,
         };
@@ -380,6 +261,27 @@ pub(crate) fn add(
         }
     }
     Ok(world)
+}
+
+/// The forces of one text on a curve of these nodes, for a fit of a picture seen like this.
+pub(crate) fn made(
+    text: &ForceText,
+    seen: &Seen,
+    nodes: &[DVec2],
+    closed: bool,
+) -> Result<Vec<Acting>, SceneError> {
+    let key = text.kind.word();
+    if let Some(kind) = kind::of_picture(key, &text.kind)? {
+        let foreseen = seen.foresee([&kind]);
+        foreseen.map_err(|(_, problem)| SceneError::key(&format!("{key}: kind"), problem))?;
+    }
+    let around = Around {
+        key,
+        sight: Some(seen),
+        nodes,
+        closed,
+    };
+    acting(&around, text)
 }
 
 /// Columns and keys of a record that no force may be called: what [`Energies`] calls its terms, of a snake or a crowd,

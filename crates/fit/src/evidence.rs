@@ -1,4 +1,4 @@
-//! What speaks for an outline that has been found: that the picture holds it, that it is an outline at all.
+//! What speaks for an outline that has been found: that the image holds it, that it is an outline at all.
 //!
 //! A curve can come to rest where nothing pulls, folded onto itself, or inside out. Rest alone is no success.
 
@@ -9,12 +9,12 @@ use integrator::State;
 use outline::Neighbours;
 use snake::Snake;
 
-use crate::meaning::force::PULL;
+use crate::force::PULL;
 
 /// How far to either side of a node the forces are asked for. Pixels.
-const PROBE: f64 = 1.0;
+pub(crate) const PROBE: f64 = 1.0;
 
-/// The least stiffness, against that of an edge as high as the picture's contrast, that counts as a hold.
+/// The least stiffness, against that of an edge as high as the image's contrast, that counts as a hold.
 const FIRM: f64 = 0.01;
 
 /// The least share of a closed outline that must be held, or of an open one.
@@ -29,13 +29,13 @@ const OPPOSITE: f64 = -0.5;
 /// What speaks for one curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Evidence {
-    /// Share of the nodes that the picture holds: moved along the normal, they are pulled back.
+    /// Share of the nodes that the image holds: moved along the normal, they are pulled back.
     pub held: f64,
     /// How often the curve crosses or touches itself.
     pub crossings: usize,
     /// Signed area at the start and at the end, of a closed curve. Square pixels.
     pub area: Option<(f64, f64)>,
-    /// Parts of the curve that face each other more closely than the picture's smoothing can resolve, if any.
+    /// Parts of the curve that face each other more closely than the image's smoothing can resolve, if any.
     pub narrow: Option<Narrow>,
 }
 
@@ -54,13 +54,13 @@ impl Evidence {
     /// What speaks for the curve at `end`, which began at `start`; `width`: the least distance of two edges that the
     /// smoothing keeps apart, if known.
     ///
-    /// The forces of the picture are asked for a pixel inside and a pixel outside of every node: O(n).
+    /// The forces of the image are asked for a pixel inside and a pixel outside of every node: O(n).
     pub fn of(snake: &mut Snake, start: &[DVec2], end: &State, width: Option<f64>) -> Self {
         let closed = snake.body().topology.is_closed();
         let area = closed.then(|| (elastic::signed_area(start), elastic::signed_area(&end.x)));
         let crossings = outline::crossings(&end.x, closed).map_or(0, |found| found.len());
         Self {
-            held: held(snake, end, closed),
+            held: share(&held(snake, end)),
             crossings,
             area,
             narrow: width.and_then(|width| narrow(&end.x, closed, width)),
@@ -99,7 +99,7 @@ impl Evidence {
         self.narrow.map(|Narrow { at, gap, resolves }| {
             format!(
                 "near ({:.0}, {:.0}) parts of the curve face each other at {gap:.1} pixels; the smoothing resolves \
-                 {resolves:.1}: a smaller --sigma, or --force line for a thin line, tells them apart",
+                 {resolves:.1}: a smaller sigma, or the force `line` for a thin line, tells them apart",
                 at.x, at.y
             )
         })
@@ -119,63 +119,62 @@ impl fmt::Display for Evidence {
     }
 }
 
-/// Unit normals of the nodes.
-fn normals(x: &[DVec2], closed: bool) -> Vec<DVec2> {
+/// Unit normals of the nodes; of a curve that runs clockwise on the screen they point inwards.
+pub(crate) fn normals(x: &[DVec2], closed: bool) -> Vec<DVec2> {
     let n = x.len();
-    let at = |i: usize, step: usize, ahead: bool| {
+    let beside = |i: usize| {
         if closed {
-            x[if ahead {
-                (i + step) % n
-            } else {
-                (i + n - step % n) % n
-            }]
-        } else if ahead {
-            x[(i + step).min(n - 1)]
+            (x[(i + n - 1) % n], x[(i + 1) % n])
         } else {
-            x[i.saturating_sub(step)]
+            (x[i.saturating_sub(1)], x[(i + 1).min(n - 1)])
         }
     };
-    (0..n)
-        .map(|i| {
-            (at(i, 1, true) - at(i, 1, false))
-                .perp()
-                .normalize_or_zero()
-        })
-        .collect()
+    let normal = |i| {
+        let (before, after) = beside(i);
+        (after - before).perp().normalize_or_zero()
+    };
+    (0..n).map(normal).collect()
 }
 
-/// Share of the nodes that forces of the picture pull back when the curve is moved along its normals.
-fn held(snake: &mut Snake, end: &State, closed: bool) -> f64 {
+/// The image's forces along `normals` when every node is moved along its own by `way`; None where one has
+/// no value.
+pub(crate) fn pulls(
+    snake: &mut Snake,
+    end: &State,
+    normals: &[DVec2],
+    way: f64,
+) -> Option<Vec<f64>> {
     let n = end.len();
-    let normals = normals(&end.x, closed);
-    let mut beside = |step: f64| -> Option<Vec<f64>> {
-        let moved = State {
-            x: end
-                .x
-                .iter()
-                .zip(&normals)
-                .map(|(x, normal)| x + step * normal)
-                .collect(),
-            v: vec![DVec2::ZERO; n],
-            ..end.clone()
-        };
-        let mut force = vec![DVec2::ZERO; n];
-        for index in 0..snake.world().forces.len() {
-            if snake.world().forces[index].is_of_picture() {
-                snake.force_of(index, &moved, &mut force).ok()?;
-            }
-        }
-        Some(force.iter().zip(&normals).map(|(f, n)| f.dot(*n)).collect())
+    let moved = end.x.iter().zip(normals);
+    let moved = State {
+        x: moved.map(|(x, normal)| x + way * normal).collect(),
+        v: vec![DVec2::ZERO; n],
+        ..end.clone()
     };
+    let mut force = vec![DVec2::ZERO; n];
+    for index in 0..snake.world().forces.len() {
+        if snake.world().forces[index].is_of_picture() {
+            snake.force_of(index, &moved, &mut force).ok()?;
+        }
+    }
+    Some(force.iter().zip(normals).map(|(f, n)| f.dot(*n)).collect())
+}
+
+/// Which nodes the image's forces pull back when the curve is moved along its normals.
+pub(crate) fn held(snake: &mut Snake, end: &State) -> Vec<bool> {
+    let normals = normals(&end.x, snake.body().topology.is_closed());
+    let mut beside = |way| pulls(snake, end, &normals, way);
     let (Some(outer), Some(inner)) = (beside(PROBE), beside(-PROBE)) else {
-        return 1.0; // a force has no value there: nothing can be said against it
+        return vec![true; end.len()]; // a force has no value there: nothing can be said against it
     };
     let least = 2.0 * PROBE * FIRM * PULL;
-    let firm = outer
-        .iter()
-        .zip(&inner)
-        .filter(|(outer, inner)| *inner - *outer > least);
-    firm.count() as f64 / n as f64
+    let both = outer.iter().zip(&inner);
+    both.map(|(outer, inner)| *inner - *outer > least).collect()
+}
+
+/// The share of the nodes for which it is so.
+fn share(held: &[bool]) -> f64 {
+    held.iter().filter(|held| **held).count() as f64 / held.len() as f64
 }
 
 /// The least distance between parts that face each other, if below `width`.

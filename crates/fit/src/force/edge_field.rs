@@ -1,10 +1,9 @@
-//! The corrected edge force of a picture's grey: made as a whole, or only where someone looks.
+//! The edge force of an image's grey: made as a whole, or only where someone looks.
 
 use field::{EdgeForce, FieldError, ForceField};
 
-use super::smoothing;
-use crate::limits::USUALLY_WHOLE;
-use crate::{Picture, SceneError};
+use super::{NORMAL_AT_1, check_smoothing};
+use crate::{Image, Problem};
 
 /// How the corrected edge force of a picture is computed.
 ///
@@ -29,71 +28,60 @@ const FELT: f64 = 2e-3;
 const LEAST_LEVEL: f64 = 1e-12;
 const MOST_LEVEL: f64 = 1e12;
 
-/// What to compute, and the keys to refuse it by.
-pub(super) struct Wanted<'a> {
-    pub computing: Computing,
-    /// Pixels up to which [`Computing::Auto`] makes all of it.
-    pub whole_up_to: u64,
-    /// Of the smoothing, and of the choice.
-    pub keys: [&'a str; 2],
+/// Which of its two parts an edge field was refused for.
+pub(crate) enum Part {
+    /// The smoothing.
+    Smoothing,
+    /// How it is computed.
+    Computing,
 }
 
-impl<'a> Wanted<'a> {
-    /// As scenes have it.
-    pub(super) fn of(computing: Option<Computing>, keys: [&'a str; 2]) -> Self {
-        Self {
-            computing: computing.unwrap_or_default(),
-            whole_up_to: USUALLY_WHOLE,
-            keys,
-        }
-    }
-}
-
-/// The edge force of a picture whose levels spread over `contrast`.
+/// The edge force of an image whose levels spread over `contrast`; [`Computing::Auto`] makes all of it up
+/// to so many pixels.
 pub(super) fn edge_field(
-    picture: &Picture,
+    image: &Image,
     contrast: f64,
     rule: EdgeForce,
-    wanted: &Wanted<'_>,
-) -> Result<ForceField, SceneError> {
-    let [smoothing_key, key] = wanted.keys;
-    let refuse = |error: FieldError| SceneError::key(smoothing_key, error);
-    let (width, height) = picture.size();
-    let small = (width * height) as u64 <= wanted.whole_up_to;
-    let lazily = match wanted.computing {
+    (computing, whole_up_to): (Computing, u64),
+) -> Result<ForceField, (Part, Problem)> {
+    let refuse = |error: FieldError| (Part::Smoothing, error.into());
+    let (width, height) = image.size();
+    let small = (width * height) as u64 <= whole_up_to;
+    let lazily = match computing {
         Computing::Auto => !small,
         Computing::Lazy => true,
         Computing::Whole => false,
     };
     if lazily {
         rule.smoothing.validate().map_err(refuse)?;
-        match lazy(picture, contrast, &rule).map_err(refuse)? {
+        match lazy(image, contrast, &rule).map_err(refuse)? {
             Ok(field) => return Ok(field),
-            Err(why) if wanted.computing == Computing::Lazy => {
-                return Err(SceneError::key(key, format!("{why}; \"whole\" is needed")));
+            Err(why) if computing == Computing::Lazy => {
+                let message = format!("{why}; \"whole\" is needed");
+                return Err((Part::Computing, Problem::Other(message)));
             }
             Err(_) => {}
         }
     }
-    smoothing(smoothing_key, rule.smoothing, picture.size())?;
-    let masked = picture.masked(picture.levels()).map_err(refuse)?;
+    check_smoothing(rule.smoothing, image.size()).map_err(|problem| (Part::Smoothing, problem))?;
+    let masked = image.masked(image.pixels().levels()).map_err(refuse)?;
     masked.edge_force(&rule).map_err(refuse)
 }
 
 /// The lazy field, or why it will not do.
 fn lazy(
-    picture: &Picture,
+    image: &Image,
     contrast: f64,
     rule: &EdgeForce,
 ) -> Result<Result<ForceField, String>, FieldError> {
-    let field = match picture.lazy_edge_force(rule) {
+    let field = match image.pixels().lazy_edge_force(rule) {
         Ok(Some(field)) => field,
         Ok(None) => return Ok(Err("does not know of pixels that do not count".to_owned())),
         Err(error @ FieldError::TooMuch { .. }) => return Ok(Err(error.to_string())),
         Err(error) => return Err(error),
     };
     // beyond these the squares and differences of f32 leave its range, which a constant never does
-    let largest = picture.largest_level();
+    let largest = image.pixels().largest();
     if contrast > 0.0 && !(LEAST_LEVEL..=MOST_LEVEL).contains(&largest) {
         return Ok(Err(format!(
             "computes with levels from {LEAST_LEVEL:e} to {MOST_LEVEL:e}, and the largest is {largest:e}"
@@ -104,7 +92,7 @@ fn lazy(
         let sigma = rule.smoothing.sigma();
         // of rounding, in shares of gain; then of the pull of such an edge
         let off = 5e-7 * largest;
-        let felt = off * (sigma * sigma + 2.0 / 3.0) / (super::force::NORMAL_AT_1 * contrast);
+        let felt = off * (sigma * sigma + 2.0 / 3.0) / (NORMAL_AT_1 * contrast);
         if felt > FELT {
             let percent = 100.0 * felt;
             return Ok(Err(format!(

@@ -1,0 +1,246 @@
+//! An image made ready for fits: its forces, once for all curves and threads.
+
+use std::sync::Arc;
+
+use field::{EdgeForce, ForceField, Polarity, Smoothing};
+use glam::DVec2;
+use snake::{Acting, ImageForce, Pressure, Sampling, World};
+
+use crate::force::{Edge, ForceKey, ImageForceKind, PULL, Sight, check_smoothing};
+use crate::options::Step;
+use crate::session::Session;
+use crate::{Contour, Fit, FitError, FitForce, Image, OptionKey, Options, Problem};
+
+/// An image with all that a fit needs of it, for any number of curves. Cloning it costs nothing; it may be
+/// shared by threads, and so are the tiles of lazy fields.
+///
+/// ```
+/// use fit::{Contour, Image, Options, Prepared};
+/// use glam::DVec2;
+///
+/// let bright = |x: usize, y: usize| (x as f64 - 30.0).hypot(y as f64 - 30.0) < 15.0;
+/// let levels = field::Grid::from_shape_fn((61, 61), |(y, x)| if bright(x, y) { 200.0 } else { 50.0 });
+/// let prepared = Prepared::of(&Image::grey(levels), &Options::default())?;
+/// let starts = [17.0, 18.0, 19.0].map(|radius| Contour::circle(DVec2::new(31.0, 30.0), radius));
+/// for start in &starts {
+///     assert!(prepared.fit(start)?.outcome.is_good());
+/// }
+/// # Ok::<(), fit::FitError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Prepared(Arc<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    options: Options,
+    sight: Sight,
+    /// The field of the usual edge force, where that alone pulls.
+    usual: Option<Arc<ForceField>>,
+    /// The chosen forces.
+    chosen: Vec<Chosen>,
+}
+
+/// A chosen force as far as it can be made before the curve is known.
+#[derive(Debug)]
+struct Chosen {
+    force: FitForce,
+    acting: Vec<Acting>,
+}
+
+impl Prepared {
+    /// Make an image ready.
+    ///
+    /// # Errors
+    ///
+    /// By its key: an option out of its range, levels that are not finite, a force that asks for more time
+    /// or memory than there is.
+    pub fn of(image: &Image, options: &Options) -> Result<Self, FitError> {
+        options.check()?;
+        let sight = Sight::of(image.clone(), options.computing, 0)
+            .map_err(|problem| FitError::new(OptionKey::Image, problem))?;
+        let usual = options.forces.is_empty() && options.polarity == Polarity::Either;
+        let mut inner = Inner {
+            options: options.clone(),
+            sight,
+            usual: None,
+            chosen: Vec::new(),
+        };
+        if usual {
+            inner.usual = Some(Arc::new(inner.usual_field()?));
+        } else {
+            inner.choose()?;
+        }
+        Ok(Self(Arc::new(inner)))
+    }
+
+    /// Fit a contour that starts there.
+    ///
+    /// # Errors
+    ///
+    /// By its key: a start with too few points or outside the image, too many nodes, a force that only
+    /// a closed curve can have.
+    pub fn fit(&self, start: &Contour) -> Result<Fit, FitError> {
+        Ok(self.session(start)?.finish())
+    }
+
+    /// The same step by step.
+    ///
+    /// # Errors
+    ///
+    /// As [`Prepared::fit`].
+    pub fn session(&self, start: &Contour) -> Result<Session, FitError> {
+        Session::new(self, start)
+    }
+
+    /// The options that it was made ready for.
+    #[must_use]
+    pub fn options(&self) -> &Options {
+        &self.0.options
+    }
+
+    /// The image as its forces see it.
+    #[must_use]
+    pub fn sight(&self) -> &Sight {
+        &self.0.sight
+    }
+
+    /// The field of the edge force, where that alone pulls.
+    #[must_use]
+    pub fn field(&self) -> Option<&Arc<ForceField>> {
+        self.0.usual.as_ref()
+    }
+
+    /// The gain of the usual edge force.
+    pub(crate) fn gain(&self) -> f64 {
+        self.0.gain()
+    }
+
+    /// The forces on a curve of these nodes.
+    pub(crate) fn world(&self, nodes: &[DVec2], closed: bool) -> Result<World, FitError> {
+        let Inner { options, sight, .. } = &*self.0;
+        let mut world = World::default();
+        if let Some(usual) = &self.0.usual {
+            world = world.with(ImageForce::new(Arc::clone(usual), Sampling::Bilinear));
+        }
+        for (index, chosen) in self.0.chosen.iter().enumerate() {
+            let list = match &chosen.force {
+                FitForce::Image { kind, .. } => {
+                    if kind.is_region() && !closed {
+                        let key = OptionKey::Force(index, ForceKey::Kind);
+                        return Err(FitError::new(key, Problem::Open));
+                    }
+                    chosen.acting.clone()
+                }
+                FitForce::Made(made) => {
+                    let key = OptionKey::Force(index, ForceKey::All);
+                    made.make(sight, nodes, closed)
+                        .map_err(|message| FitError::new(key, Problem::Other(message)))?
+                }
+            };
+            world.forces.extend(list);
+        }
+        if options.balloon.abs() > 0.0 {
+            if !closed {
+                return Err(FitError::new(OptionKey::Balloon, Problem::Open));
+            }
+            let pressure = Pressure::constant(PULL * options.balloon);
+            world = world.with_acting(Acting::new(pressure).named("balloon"));
+        }
+        Ok(world)
+    }
+
+    /// The steepest slope that the usual edge force can have anywhere.
+    ///
+    /// The field is computed where the curve goes, and not as a whole for this: its slopes are bounded by the
+    /// image's range of levels, H. With gain g, the force of one dimension has the slope g (H/2) ∫|G‴| at
+    /// most, and ∫|G‴| = 2 (1 + 4 e^(−3/2)) / (√(2π) σ³) for a Gaussian G.
+    pub(crate) fn steepest(&self) -> f64 {
+        let sigma = self.0.options.sigma;
+        let total = 2.0 * (1.0 + 4.0 * (-1.5_f64).exp());
+        let sharp = (std::f64::consts::TAU.sqrt() * sigma.powi(3)).recip();
+        0.5 * self.gain() * self.0.sight.range() * total * sharp
+    }
+
+    /// Whether the usual edge force alone is chosen to pull, in steps of the finder's own choice.
+    pub(crate) fn relaxes(&self) -> bool {
+        self.0.usual.is_some() && self.0.options.step == Step::Chosen
+    }
+}
+
+impl Inner {
+    fn gain(&self) -> f64 {
+        let usual = EdgeForce::as_strong_as_the_report().gain;
+        self.options.strength * usual * 120.0 / self.sight.contrast()
+    }
+
+    fn usual_field(&self) -> Result<ForceField, FitError> {
+        let rule = EdgeForce {
+            smoothing: Smoothing::Gaussian(self.options.sigma),
+            gain: self.gain(),
+        };
+        self.sight.edge_field(rule).map_err(|error| {
+            let key = match error.key {
+                ForceKey::Sigma => OptionKey::Sigma,
+                _ => OptionKey::Computing,
+            };
+            FitError::new(key, error.problem)
+        })
+    }
+
+    /// The chosen forces, or the usual one of the chosen polarity.
+    fn choose(&mut self) -> Result<(), FitError> {
+        let options = &self.options;
+        let mut forces = options.forces.clone();
+        if forces.is_empty() {
+            let sigma = options.sigma;
+            check_smoothing(Smoothing::Gaussian(sigma), self.sight.image().size())
+                .map_err(|problem| FitError::new(OptionKey::Sigma, problem))?;
+            // that edge force at another σ has another pull
+            let strength = options.strength * 10.0 / (sigma * sigma);
+            let polarity = Some(options.polarity);
+            forces.push(FitForce::of(ImageForceKind::Edge(Edge {
+                sigma,
+                strength,
+                polarity,
+            })));
+        }
+        for force in &mut forces {
+            if let FitForce::Image {
+                kind: ImageForceKind::Edge(edge),
+                ..
+            } = force
+            {
+                edge.polarity.get_or_insert(options.polarity);
+            }
+        }
+        let kinds: Vec<(usize, &ImageForceKind)> = forces
+            .iter()
+            .enumerate()
+            .filter_map(|(index, force)| match force {
+                FitForce::Image { kind, .. } => Some((index, kind)),
+                FitForce::Made(_) => None,
+            })
+            .collect();
+        self.sight
+            .foresee(kinds.iter().map(|(_, kind)| *kind))
+            .map_err(|(at, problem)| {
+                let index = kinds.get(at).map_or(0, |(index, _)| *index);
+                FitError::new(OptionKey::Force(index, ForceKey::Kind), problem)
+            })?;
+        for (index, force) in forces.into_iter().enumerate() {
+            let mut acting = Vec::new();
+            if let FitForce::Image { kind, weight } = &force {
+                Problem::at_least_zero(*weight).map_err(|problem| {
+                    FitError::new(OptionKey::Force(index, ForceKey::Weight), problem)
+                })?;
+                let made = self.sight.forces(kind).map_err(|error| {
+                    FitError::new(OptionKey::Force(index, error.key), error.problem)
+                })?;
+                let weighted = |one: Acting| one.weighted(elastic::Profile::Uniform(*weight));
+                acting.extend(made.into_iter().map(weighted));
+            }
+            self.chosen.push(Chosen { force, acting });
+        }
+        Ok(())
+    }
+}
