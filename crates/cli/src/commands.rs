@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use io::{Claims, Picture, shapes};
@@ -84,7 +85,7 @@ pub(crate) fn run(args: &args::Run) -> Answer {
 
 pub(crate) fn field(args: &args::Field) -> Answer {
     two_inputs(&args.image, args.from.as_deref())?;
-    let picture = Picture::load(&args.image)?;
+    let picture = Arc::new(Picture::load(&args.image)?);
     for note in picture.notes() {
         say(&format!("note: {note}"));
     }

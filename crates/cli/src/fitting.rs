@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use io::shapes::{self, Shape};
 use io::Picture;
+use io::shapes::{self, Shape};
 use scene::field::Polarity;
 use scene::fit::{FitError, Nodes, OptionKey, Options, Prepared, Session, Step};
 use scene::snake::Outcome;

@@ -3,6 +3,7 @@
 use std::io::{ErrorKind, Write as _};
 use std::path::PathBuf;
 
+use io::shapes::Shape;
 use io::{Claims, Picture, is_standard, paint, shapes};
 use scene::snake::Outcome;
 use scene::{Record, Scene, SceneError};

@@ -143,8 +143,8 @@ impl Session {
         let settled = matches!(outcome, Outcome::Settled { .. });
         let sigma = self.prepared.options().sigma;
         let (mut snake, state) = (self.member().snake().clone(), self.member().state());
-        let quality = settled
-            .then(|| Evidence::of(&mut snake, &self.start, state, Some(RESOLVES * sigma)));
+        let quality =
+            settled.then(|| Evidence::of(&mut snake, &self.start, state, Some(RESOLVES * sigma)));
         let nodes = if blown_up {
             Vec::new()
         } else {

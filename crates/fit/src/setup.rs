@@ -82,7 +82,10 @@ pub(crate) fn bordered(mut world: World, prepared: &Prepared) -> Result<World, F
 }
 
 /// What moves the curve, and why so; the other choices are filled in by the caller.
-pub(crate) fn stepping(prepared: &Prepared, snake: &Snake) -> Result<(Stepping, Choices), FitError> {
+pub(crate) fn stepping(
+    prepared: &Prepared,
+    snake: &Snake,
+) -> Result<(Stepping, Choices), FitError> {
     let choices = |scheme, step, why| Choices {
         contrast: 0.0,
         nodes: 0,

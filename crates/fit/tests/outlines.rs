@@ -10,7 +10,9 @@ use elastic::{Material, Topology};
 use fit::{Contour, FitForce, Image, Options, Prepared, force};
 use glam::DVec2;
 use integrator::{Scheme, State};
-use snake::{Body, Certificate, Outcome, Rest, Sampling, Simulation, Snake, Stepping, Until, World};
+use snake::{
+    Body, Certificate, Outcome, Rest, Sampling, Simulation, Snake, Stepping, Until, World,
+};
 
 /// What smooths an edge: the Gaussian, the pixel's own area and the masks of the two derivatives. Square pixels.
 fn width_of(sigma: f64) -> f64 {

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use field::{Grid, Region, RegionScratch, Smoothing};
 use glam::DVec2;
@@ -78,7 +79,7 @@ impl Fields {
     ///
     /// A folder that cannot be made or written (found out first); a smoothing, a kind or a curve
     /// that is refused, under the key `field.passes`, `field.sigma`, `field.kind` or `field.curve`.
-    pub fn write(&self, picture: &Picture, folder: &Path) -> Result<Vec<PathBuf>, SceneError> {
+    pub fn write(&self, picture: &Arc<Picture>, folder: &Path) -> Result<Vec<PathBuf>, SceneError> {
         let key = match self.smoothing {
             Smoothing::Binomial(_) => "field.passes",
             Smoothing::Gaussian(_) => "field.sigma",

@@ -11,6 +11,7 @@ use snake::Acting;
 use crate::SceneError;
 use crate::error::{clip, meant};
 use crate::file::{ForceText, KindText, PolarityText, WORDS};
+use crate::meaning::force;
 
 /// A kind of force that a scene can name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,7 +4,7 @@
 //! A program that is handed a text by a stranger must not be talked into hours or gigabytes. Every
 //! bound is far above what the work needs, and the message of a refusal says what it is.
 
-pub(crate) use io::limits::{FARTHEST, MOST_NODES, MOST_WHOLE, room};
+pub(crate) use io::limits::{FARTHEST, MOST_NODES};
 
 /// Snakes of a scene.
 pub(crate) const MOST_SNAKES: usize = 10_000;
@@ -14,7 +14,6 @@ pub(crate) const MOST_IN_ALL: usize = 1 << 21;
 
 /// Snakes times forces and walls of each: every snake has its own list of them.
 pub(crate) const MOST_FORCES: usize = 1 << 20;
-
 
 /// Pixels up to which a scene's field is made as a whole, in doubles, unless it says otherwise: 2048 × 2048.
 pub(crate) const USUALLY_WHOLE: u64 = 1 << 22;

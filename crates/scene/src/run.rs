@@ -39,6 +39,7 @@ impl Scene {
             scheme: plan.scheme,
             dt: plan.dt,
             tolerance: plan.tolerance,
+            relax: None,
             each: plan.each,
             start: plan.start_rule,
             force: plan.force,

@@ -9,7 +9,10 @@ use glam::DVec2;
 use integrator::{Scheme, State};
 use scene::fit::force::Computing;
 use scene::fit::{Contour, Options, Prepared};
-use snake::{Body, Certificate, Outcome, Rest, Sampling, Simulation, Snake, Stepping, Until, Wall, WallLaw, World};
+use snake::{
+    Body, Certificate, Outcome, Rest, Sampling, Simulation, Snake, Stepping, Until, Wall, WallLaw,
+    World,
+};
 
 /// Steps of the explicit run until a motion of a millionth of its size in a sixth of its time counts as rest.
 const EXPLICIT_STEPS: u64 = 73_455;

@@ -33,6 +33,7 @@ fn timing(dt: f64) -> Stepping {
         scheme: Scheme::Leapfrog,
         dt,
         tolerance: None,
+        relax: None,
         each: false,
         start: Start::SecondOrder,
         force: false,

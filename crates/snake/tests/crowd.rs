@@ -34,6 +34,7 @@ fn timing(scheme: Scheme, dt: f64) -> Stepping {
         scheme,
         dt,
         tolerance: None,
+        relax: None,
         each: false,
         start: Start::SecondOrder,
         force: false,

@@ -36,6 +36,7 @@ const TIMING: Stepping = Stepping {
     scheme: Scheme::Leapfrog,
     dt: 2e-3,
     tolerance: None,
+    relax: None,
     each: false,
     start: Start::SecondOrder,
     force: false,

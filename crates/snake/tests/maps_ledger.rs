@@ -340,6 +340,7 @@ fn a_crowd_on_a_map_closes_its_account_and_keeps_its_momentum() {
         scheme: Scheme::Leapfrog,
         dt: 0.01,
         tolerance: None,
+        relax: None,
         each: false,
         start: Start::SecondOrder,
         force: false,

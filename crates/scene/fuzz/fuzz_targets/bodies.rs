@@ -29,7 +29,7 @@ pub fn contour(bytes: &[u8]) {
                 ..Options::default()
             };
             let start = fit::Contour {
-                points: contour.points,
+                points: contour.first().to_vec(),
                 closed: contour.closed.unwrap_or(true),
             };
             // some lie in this picture; most are refused

@@ -1,6 +1,6 @@
 //! What a simulation begins with: snakes, steps, and rules for all of them; and what is refused.
 
-use integrator::{Fault, Relaxation, Scheme, SchemeError, Start, State};
+use integrator::{Fault, Scheme, SchemeError, Start, State};
 use outline::OutlineError;
 
 use super::{Contact, Upkeep};
@@ -43,7 +43,7 @@ pub struct Stepping {
     /// snakes left out; these are met in equal parts of the step, below a quarter of their own limit. None: steps as
     /// they are. L.
     pub tolerance: Option<f64>,
-    /// Go to rest by the shortest way in place of the scheme ([`Relaxation`]): steps that grow as the forces die, none
+    /// Go to rest by the shortest way in place of the scheme ([`Relaxation`](integrator::Relaxation)): steps that grow as the forces die, none
     /// of which moves a node by more than so much; `dt` is the first. For a lone snake. L.
     pub relax: Option<f64>,
     /// With a tolerance and one snake: every sub-step is a step of its own, and `dt` is the time of the whole run.
