@@ -7,7 +7,7 @@ use std::sync::Arc;
 use io::Picture;
 use io::shapes::{self, Shape};
 use scene::field::Polarity;
-use scene::fit::{FitError, Nodes, OptionKey, Options, Prepared, Session, Step};
+use scene::fit::{FitError, Image, Nodes, OptionKey, Options, Prepared, Session, Step};
 use scene::snake::Outcome;
 use scene::{Computing, SceneError};
 
@@ -42,7 +42,7 @@ pub(crate) fn fit(args: &args::Fit) -> Answer {
         points: contour.first().to_vec(),
         closed,
     };
-    let image = scene::fit_image(&picture);
+    let image = Image::of(picture.clone());
     let prepared = Prepared::of(&image, &options).map_err(|e| by_flag(&e))?;
     let session = prepared.session(&start);
     let session = session.map_err(|e| by_flag(&e))?;

@@ -61,6 +61,7 @@ pub mod literal;
 mod map;
 mod masked;
 mod measure;
+mod pixels;
 mod points;
 mod polarity;
 mod region;
@@ -85,6 +86,7 @@ pub use levels::{level_limits, level_spread};
 pub use map::{Map, contrast_share, distance_share, edge_share, grey_share};
 pub use masked::MaskedImage;
 pub use measure::{ImageScale, image_scale, noise_sigma};
+pub use pixels::{Pixels, counted_limits};
 pub use points::{distance_to_points, point_distance_force};
 pub use polarity::{Polarity, SignedEdge};
 pub use region::{

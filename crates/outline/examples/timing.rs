@@ -1,6 +1,6 @@
 //! How long the search for crossings and for neighbours takes, for each node.
 //!
-//! `cargo run --release -p outline --example timing`
+//! `cargo run --release -p snakes-outline --example timing`
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 

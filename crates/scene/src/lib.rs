@@ -43,7 +43,6 @@ pub use fit::force::Computing;
 pub use fit::{Evidence, Narrow};
 pub use hand::Hand;
 pub use kinds::{FORCES, ForceChoice, ForceKind};
-pub use meaning::fit_image;
 pub use record::{Frame, Record};
 pub use scene::{Plan, Recording, Scene, View};
 pub use text::SceneText;

@@ -8,7 +8,7 @@ use elastic::{Material, Topology};
 use glam::DVec2;
 use integrator::{Scheme, State};
 use scene::fit::force::Computing;
-use scene::fit::{Contour, Options, Prepared};
+use scene::fit::{Contour, Image, Options, Prepared};
 use snake::{
     Body, Certificate, Outcome, Rest, Sampling, Simulation, Snake, Stepping, Until, Wall, WallLaw,
     World,
@@ -63,7 +63,7 @@ fn explicit_rest(prepared: &Prepared, start: &[DVec2]) -> State {
 #[test]
 fn the_default_fit_of_the_apple_rests_where_small_steps_rest_in_hundreds_of_its_own() {
     let picture = Arc::new(scene::picture("apple").unwrap());
-    let image = scene::fit_image(&picture);
+    let image = Image::of(picture.clone());
     let start = scene::contour("apple-whole-without-the-stem").unwrap();
     let start = Contour::closed(start.first().to_vec());
     let made = |computing| {

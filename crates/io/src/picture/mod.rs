@@ -11,6 +11,7 @@
 
 mod decode;
 mod jpeg;
+mod memory;
 mod pixels;
 mod png;
 mod pnm;

@@ -23,7 +23,6 @@ use snake::{Snake, SnakeError, Turning};
 use files::Files;
 use force::Sight;
 
-pub use force::image as fit_image;
 pub(crate) use hand::force_now;
 pub(crate) use plan::USUAL_TOLERANCE;
 pub(crate) use world::{outside, smoothing};

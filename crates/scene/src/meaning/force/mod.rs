@@ -20,7 +20,6 @@ use super::number;
 use crate::SceneError;
 use crate::file::{EdgeText, ForceText, KindText, PolarityText};
 pub(crate) use sight::Sight;
-pub use sight::image;
 
 /// Whether a kind compares what is inside with what is outside.
 pub(crate) const fn is_region(kind: &KindText) -> bool {

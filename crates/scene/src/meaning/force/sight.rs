@@ -1,13 +1,11 @@
 //! A picture as the kinds of force look at it, and refusals by the keys of the text.
 
 use std::cell::OnceCell;
-use std::fmt;
 use std::sync::Arc;
 
-use field::{EdgeForce, FieldError, ForceField, Grid, Region};
+use field::{EdgeForce, ForceField, Region};
 use fit::force::{Computing, ForceError, ForceKey, ImageForceKind, Made};
-use fit::{Image, Pixels, Problem};
-use ndarray::Array2;
+use fit::{Image, Problem};
 use snake::Acting;
 
 use super::kind::of_picture;
@@ -15,53 +13,6 @@ use super::looks;
 use crate::file::{ForceText, KindText};
 use crate::limits::USUALLY_WHOLE;
 use crate::{Picture, SceneError};
-
-/// A picture as [`fit`] takes it; its pixels stay as they are, and are shared.
-#[must_use]
-pub fn image(picture: &Arc<Picture>) -> Image {
-    Image::of(Arc::new(Seen(Arc::clone(picture))))
-}
-
-struct Seen(Arc<Picture>);
-
-impl fmt::Debug for Seen {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Seen").field(&self.0.size()).finish()
-    }
-}
-
-impl Pixels for Seen {
-    fn size(&self) -> (usize, usize) {
-        self.0.size()
-    }
-    fn levels(&self) -> &Grid {
-        self.0.levels()
-    }
-    fn level(&self, x: usize, y: usize) -> f64 {
-        self.0.level_at(x, y)
-    }
-    fn channels(&self) -> Vec<Grid> {
-        self.0.channels()
-    }
-    fn is_color(&self) -> bool {
-        self.0.is_color()
-    }
-    fn valid(&self) -> Option<&Array2<bool>> {
-        self.0.valid()
-    }
-    fn is_checked(&self) -> bool {
-        self.0.is_tame()
-    }
-    fn limits(&self) -> [f64; 4] {
-        self.0.grey_limits()
-    }
-    fn largest(&self) -> f64 {
-        self.0.largest_level()
-    }
-    fn lazy_edge_force(&self, rule: &EdgeForce) -> Result<Option<ForceField>, FieldError> {
-        self.0.lazy_edge_force(rule)
-    }
-}
 
 /// A picture as the kinds of force look at it.
 pub(crate) struct Sight<'a> {
@@ -73,8 +24,12 @@ pub(crate) struct Sight<'a> {
 
 impl<'a> Sight<'a> {
     pub(crate) fn of(picture: &'a Arc<Picture>) -> Result<Self, SceneError> {
-        let seen = fit::force::Sight::of(image(picture), Computing::Auto, USUALLY_WHOLE)
-            .map_err(|problem| SceneError::key("picture", problem))?;
+        let seen = fit::force::Sight::of(
+            Image::of(Arc::<Picture>::clone(picture)),
+            Computing::Auto,
+            USUALLY_WHOLE,
+        )
+        .map_err(|problem| SceneError::key("picture", problem))?;
         Ok(Self {
             picture,
             seen,
