@@ -4,29 +4,70 @@ use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 
+/// What the codes mean, in every help.
+const CODES: &str = "Exit code 0: at rest, or ran as asked. 1: ran, but blew up, left the picture, found no outline, \
+                     was stopped, or ran out of steps before rest. 2: refused, and why.";
+
 /// Elastic curves with mass that find, measure and follow outlines in pictures.
-///
-/// Exit code 0: at rest, or ran as asked. 1: ran, but blew up, left the picture or ran out of steps
-/// before rest. 2: refused, and why.
 #[derive(Debug, Parser)]
-#[command(name = "snake", version, max_term_width = 100)]
+#[command(name = "snake", version, max_term_width = 100, after_help = CODES)]
 pub(crate) struct Args {
+    #[command(flatten)]
+    pub words: Words,
     #[command(subcommand)]
     pub command: Command,
+}
+
+/// How much is said.
+#[derive(Debug, Clone, Copy, ClapArgs)]
+pub(crate) struct Words {
+    /// Say nothing but errors.
+    #[arg(long, short, global = true, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Say what was chosen, and why.
+    #[arg(long, short, global = true)]
+    pub verbose: bool,
+    /// Say how it ended as one line of JSON on standard output.
+    #[arg(long, global = true)]
+    pub json: bool,
 }
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Run a scene: a shipped one by name (see `list`), or a TOML file.
+    #[command(after_help = CODES)]
     Run(Run),
     /// Write every stage from a picture to its force field, or every kind of field, as pictures and numbers.
+    #[command(after_help = CODES)]
     Field(Field),
     /// Pull a drawn contour onto the edges of a picture.
+    #[command(after_help = CODES)]
     Fit(Fit),
     /// Print the text of a scene: a shipped one by name, or a TOML file.
+    #[command(after_help = CODES)]
     Show(Show),
     /// List the shipped scenes, the schemes, or the kinds of force.
+    #[command(after_help = CODES)]
     List(List),
+    /// Print completions for a shell, to be put where it looks for them.
+    #[command(after_help = CODES)]
+    Completions(Completions),
+    /// Print the manual page, of this command or of one of its subcommands.
+    #[command(after_help = CODES)]
+    Man(Man),
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Completions {
+    /// Which shell.
+    #[arg(value_enum)]
+    pub shell: clap_complete::Shell,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Man {
+    /// The subcommand; the whole command if not given.
+    pub command: Option<String>,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -67,7 +108,7 @@ pub(crate) struct Run {
     #[arg(long)]
     pub energies: bool,
     /// Write the final contour, of several snakes all of them; `-` is standard output.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, short, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Write the picture with every start (blue) and every final contour (orange) over it.
     #[arg(long, value_name = "PNG")]
@@ -112,6 +153,51 @@ impl std::str::FromStr for Change {
     }
 }
 
+/// Where a fit starts, as typed.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Start {
+    /// x and y of the center, and the radius.
+    Circle([f64; 3]),
+    /// Left, top, width and height.
+    Box([f64; 4]),
+    /// A file of points.
+    File(PathBuf),
+}
+
+impl std::str::FromStr for Start {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if let Some(numbers) = text.strip_prefix("circle:") {
+            let numbers @ [.., radius] = finite(numbers, "circle:X,Y,RADIUS")?;
+            if radius <= 0.0 {
+                return Err(format!("the radius must be above 0, got {radius}"));
+            }
+            return Ok(Self::Circle(numbers));
+        }
+        if let Some(numbers) = text.strip_prefix("box:") {
+            let numbers @ [.., width, height] = finite(numbers, "box:LEFT,TOP,WIDTH,HEIGHT")?;
+            if width <= 0.0 || height <= 0.0 {
+                let message = format!("width and height must be above 0, got {width} and {height}");
+                return Err(message);
+            }
+            return Ok(Self::Box(numbers));
+        }
+        Ok(Self::File(PathBuf::from(text)))
+    }
+}
+
+/// So many finite numbers with commas between them.
+fn finite<const N: usize>(text: &str, form: &str) -> Result<[f64; N], String> {
+    let wrong = || format!("must be {form} with numbers, got {text}");
+    let numbers = text.split(',').map(|number| number.trim().parse::<f64>());
+    let numbers: Vec<f64> = numbers.collect::<Result<_, _>>().map_err(|_| wrong())?;
+    if numbers.iter().any(|number| !number.is_finite()) {
+        return Err(wrong());
+    }
+    numbers.try_into().map_err(|_| wrong())
+}
+
 /// A step as typed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Step {
@@ -138,7 +224,7 @@ pub(crate) struct Field {
     /// The picture: PNG, JPEG, TIFF, PGM or PPM; `-` is standard input.
     pub image: PathBuf,
     /// Folder to write to; made if it is not there.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     pub out: PathBuf,
     /// Smooth by a Gaussian of this width, pixels.
     #[arg(
@@ -167,12 +253,12 @@ pub(crate) struct Field {
 pub(crate) struct Fit {
     /// The picture: PNG, JPEG, TIFF, PGM or PPM; `-` is standard input.
     pub image: PathBuf,
-    /// The contour to start from: a CSV of x,y in pixels, the first pixel's center at 0,0; `-` is
-    /// standard input.
-    #[arg(long, value_name = "CONTOUR")]
-    pub from: PathBuf,
+    /// The contour to start from: `circle:X,Y,RADIUS` or `box:LEFT,TOP,WIDTH,HEIGHT` in pixels, the first
+    /// pixel's center at 0,0; or a file of x,y in pixels; `-` is standard input.
+    #[arg(long, short, value_name = "START")]
+    pub from: Start,
     /// Write the contour found; standard output if not given or `-`.
-    #[arg(long, value_name = "CONTOUR")]
+    #[arg(long, short, value_name = "CONTOUR")]
     pub out: Option<PathBuf>,
     /// Write the picture with the start (blue) and the contour found (orange) over it.
     #[arg(long, value_name = "PNG")]
@@ -184,7 +270,7 @@ pub(crate) struct Fit {
     #[arg(long)]
     pub closed: bool,
     /// Number of nodes; one every four pixels if not given.
-    #[arg(long, value_name = "N")]
+    #[arg(long, short, value_name = "N")]
     pub nodes: Option<usize>,
     /// How hard each node is held to its place in the start's shape.
     #[arg(long, value_name = "W0", allow_negative_numbers = true, default_value_t = scene::fit::Options::default().tether)]
@@ -218,8 +304,9 @@ pub(crate) struct Fit {
     )]
     pub balloon: f64,
     /// Width of the Gaussian that smooths the picture for the edge force, pixels; the reach is about three times that.
-    #[arg(long, value_name = "PX", allow_negative_numbers = true, default_value_t = scene::fit::Options::default().sigma)]
-    pub sigma: f64,
+    /// If not given, the square root of 10, about 3.16.
+    #[arg(long, value_name = "PX", allow_negative_numbers = true)]
+    pub sigma: Option<f64>,
     /// How hard the edge force pulls; 1 suits most.
     #[arg(long, value_name = "S", allow_negative_numbers = true, default_value_t = scene::fit::Options::default().strength)]
     pub strength: f64,

@@ -12,13 +12,15 @@ use scene::field::Smoothing;
 use scene::integrator::Scheme;
 use scene::snake::{Certificate, Outcome};
 use scene::{Evidence, Fields, ForceChoice, Record, Scene, SceneError, SceneText};
+use serde_json::json;
 
-use crate::args;
-use crate::output::{Output, put, say};
+use crate::args::{self, Words};
+use crate::output::{Output, put};
+use crate::stop::{STOPPED, Stop};
 
 pub(crate) type Answer = Result<ExitCode, SceneError>;
 
-pub(crate) fn run(args: &args::Run) -> Answer {
+pub(crate) fn run(args: &args::Run, words: Words) -> Answer {
     let mut scene = find(&args.scene, &args.changes)?.scene()?;
     let plan = &mut scene.plan;
     if let Some(name) = &args.scheme {
@@ -77,17 +79,17 @@ pub(crate) fn run(args: &args::Run) -> Answer {
         scene.check().map_err(|error| by_flag(error, &flags))?;
         let certificate = Certificate::of(&scene.of_the_run(), None);
         for line in certificate.to_string().lines() {
-            say(line);
+            words.say(line);
         }
     }
-    go(&mut scene, &output, &flags)
+    go(&scene, &output, &flags, words)
 }
 
-pub(crate) fn field(args: &args::Field) -> Answer {
+pub(crate) fn field(args: &args::Field, words: Words) -> Answer {
     two_inputs(&args.image, args.from.as_deref())?;
     let picture = Arc::new(Picture::load(&args.image)?);
     for note in picture.notes() {
-        say(&format!("note: {note}"));
+        words.say(&format!("note: {note}"));
     }
     let smoothing = match (args.sigma, args.passes) {
         (Some(sigma), _) => Smoothing::Gaussian(sigma),
@@ -136,7 +138,7 @@ pub(crate) fn choices(flag: &str, typed: &[String]) -> Result<Vec<ForceChoice>, 
     typed.iter().map(read).collect()
 }
 
-pub(crate) fn list(args: &args::List) -> Answer {
+pub(crate) fn list(args: &args::List, words: Words) -> Answer {
     let (mut text, mut after) = (String::new(), None);
     match args.what {
         args::What::Scenes => {
@@ -160,7 +162,7 @@ pub(crate) fn list(args: &args::List) -> Answer {
         }
     }
     put(&text)?;
-    after.into_iter().for_each(say);
+    after.into_iter().for_each(|hint| words.say(hint));
     Ok(ExitCode::SUCCESS)
 }
 
@@ -204,40 +206,72 @@ pub(crate) fn show(args: &args::Show) -> Answer {
 type Flags<'a> = [(&'a str, &'a str, bool)];
 
 /// Check, run, write, say how it ended, and turn that into a code.
-fn go(scene: &mut Scene, output: &Output, flags: &Flags<'_>) -> Answer {
+fn go(scene: &Scene, output: &Output, flags: &Flags<'_>, words: Words) -> Answer {
     scene.check().map_err(|error| by_flag(error, flags))?;
-    output.check(scene.picture.as_deref(), &scene.inputs)?;
+    output.check(scene.picture.as_deref(), &scene.inputs, words)?;
     for note in &scene.notes {
-        say(&format!("note: {note}"));
+        words.say(&format!("note: {note}"));
     }
-    let record = watched(scene).map_err(|error| by_flag(error, flags))?;
-    output.write(scene, &record)?;
+    let stop = Stop::listen();
+    let record = watched(scene, &stop, words).map_err(|error| by_flag(error, flags))?;
+    output.write(scene, &record, words)?;
     let (title, outcome) = (&scene.title, record.outcome);
     let t = record.last().map_or(0.0, |last| last.t);
     match outcome {
-        Outcome::Diverged { .. } => say(&format!("{title}: {outcome}; no contour to write")),
-        _ => say(&format!("{title}: {outcome}, t = {t:.6}")),
+        Outcome::Diverged { .. } => words.say(&format!("{title}: {outcome}; no contour to write")),
+        _ => words.say(&format!("{title}: {outcome}, t = {t:.6}")),
     }
     for remark in &record.remarks {
-        say(&format!("note: {remark}"));
+        words.say(&format!("note: {remark}"));
     }
     if let Some(pace) = &record.pace {
-        say(pace);
+        words.say(pace);
     }
     let short = matches!(outcome, Outcome::Finished { .. }) && scene.plan.until.rest.is_some();
     if short {
-        say("it was to come to rest and has not: allow more steps");
+        words.say("it was to come to rest and has not: allow more steps");
     }
-    let objected = judge(title, &record);
-    Ok(if outcome.is_good() && !short && !objected {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::from(1)
+    let stopped = stop.asked();
+    if stopped {
+        words.say(STOPPED);
+    }
+    let objected = judge(title, &record, words);
+    let good = outcome.is_good() && !short && !objected && !stopped;
+    words.end(&json!({
+        "title": title,
+        "outcome": outcome.name(),
+        "message": outcome.to_string(),
+        "steps": outcome.step(),
+        "time": t,
+        "good": good,
+        "curves": record.evidence.iter().map(told).collect::<Vec<_>>(),
+        "events": record.events,
+    }))?;
+    Ok(code(good))
+}
+
+/// What speaks for a curve, as JSON.
+pub(crate) fn told(evidence: &Evidence) -> serde_json::Value {
+    json!({
+        "held": evidence.held,
+        "crossings": evidence.crossings,
+        "area": evidence.area.map(|(_, end)| end),
+        "objection": evidence.objection(),
+        "note": evidence.note(),
     })
 }
 
+/// The exit code of what went well, or did not.
+pub(crate) fn code(good: bool) -> ExitCode {
+    if good {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::from(1)
+    }
+}
+
 /// Say what speaks for each curve that came to rest; whether anything speaks against one.
-fn judge(title: &str, record: &Record) -> bool {
+fn judge(title: &str, record: &Record, words: Words) -> bool {
     let many = record.evidence.len() > 1;
     let mut objected = false;
     for (index, evidence) in record.evidence.iter().enumerate() {
@@ -246,25 +280,28 @@ fn judge(title: &str, record: &Record) -> bool {
         } else {
             String::new()
         };
-        objected |= objects(&format!("{title}{which}"), evidence);
+        objected |= objects(&format!("{title}{which}"), evidence, words);
     }
     objected
 }
 
 /// Say what speaks for a curve of that title; whether anything speaks against it.
-pub(crate) fn objects(title: &str, evidence: &Evidence) -> bool {
-    say(&format!("{title}: {evidence}"));
+pub(crate) fn objects(title: &str, evidence: &Evidence, words: Words) -> bool {
+    words.say(&format!("{title}: {evidence}"));
     let objection = evidence.objection();
     if let Some(reason) = &objection {
-        say(&format!("{title}: not an outline: {reason}"));
+        words.say(&format!("{title}: not an outline: {reason}"));
     } else if let Some(note) = evidence.note() {
-        say(&format!("note: {note}"));
+        words.say(&format!("note: {note}"));
     }
     objection.is_some()
 }
 
-/// A bar on standard error for so many steps.
-pub(crate) fn bar(steps: u64) -> ProgressBar {
+/// A bar on standard error for so many steps, unless quiet was asked for.
+pub(crate) fn bar(steps: u64, words: Words) -> ProgressBar {
+    if words.quiet {
+        return ProgressBar::hidden();
+    }
     let bar = ProgressBar::new(steps);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} steps {eta}") {
         bar.set_style(style);
@@ -273,11 +310,14 @@ pub(crate) fn bar(steps: u64) -> ProgressBar {
 }
 
 /// Run a scene with a progress bar on standard error, when a person is there to see it.
-fn watched(scene: &mut Scene) -> Result<Record, SceneError> {
-    let bar = bar(scene.plan.until.steps);
+fn watched(scene: &Scene, stop: &Stop, words: Words) -> Result<Record, SceneError> {
+    let bar = bar(scene.plan.until.steps, words);
     let record = scene.run(&mut |state| {
         if state.step % 256 == 0 {
             bar.set_position(state.step);
+        }
+        if stop.asked() {
+            return ControlFlow::Break(());
         }
         ControlFlow::Continue(())
     });

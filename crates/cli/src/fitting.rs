@@ -4,35 +4,52 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 
+use glam::DVec2;
 use io::Picture;
 use io::shapes::{self, Shape};
 use scene::field::Polarity;
 use scene::fit::{FitError, Image, Nodes, OptionKey, Options, Prepared, Session, Step};
 use scene::snake::Outcome;
-use scene::{Computing, SceneError};
+use scene::{Computing, SceneError, fit};
+use serde_json::json;
 
-use crate::args;
-use crate::commands::{Answer, bar, choices, key, objects, two_inputs};
-use crate::output::{Output, put, say};
+use crate::args::{self, Start, Words};
+use crate::commands::{Answer, bar, choices, code, key, objects, told, two_inputs};
+use crate::output::{Output, put};
+use crate::stop::{STOPPED, Stop};
 
 /// What a fit is called in what is said.
 const TITLE: &str = "a contour fitted to a picture";
 
 /// Steps between two looks of the progress bar.
-const STEPS_A_LOOK: u64 = 256;
+const STEPS_A_LOOK: u64 = 16;
 
-pub(crate) fn fit(args: &args::Fit) -> Answer {
+pub(crate) fn fit(args: &args::Fit, words: Words) -> Answer {
     let options = options(args)?;
-    two_inputs(&args.image, Some(&args.from))?;
-    let contour = shapes::load_one(&args.from)?;
+    let (contour, file) = match &args.from {
+        Start::Circle([x, y, radius]) => {
+            let circle = fit::Contour::circle(DVec2::new(*x, *y), *radius);
+            (Shape::curve(circle.points, Some(true)), None)
+        }
+        Start::Box([left, top, width, height]) => {
+            let corner = DVec2::new(*left, *top);
+            let rectangle =
+                fit::Contour::rectangle(corner, corner + DVec2::new(*width, *height));
+            (Shape::curve(rectangle.points, Some(true)), None)
+        }
+        Start::File(path) => {
+            two_inputs(&args.image, Some(path))?;
+            (shapes::load_one(path)?, Some(path))
+        }
+    };
     let picture = Arc::new(Picture::load(&args.image)?);
     let output = Output {
         record: None,
         contour: Some(args.out.clone().unwrap_or_else(|| PathBuf::from("-"))),
         overlay: args.overlay.clone(),
     };
-    let inputs = [args.image.clone(), args.from.clone()];
-    output.check(Some(&picture), &inputs)?;
+    let inputs: Vec<PathBuf> = [Some(&args.image), file].into_iter().flatten().cloned().collect();
+    output.check(Some(&picture), &inputs, words)?;
     let closed = match (args.open, args.closed) {
         (true, _) => false,
         (_, true) => true,
@@ -47,34 +64,50 @@ pub(crate) fn fit(args: &args::Fit) -> Answer {
     let session = prepared.session(&start);
     let session = session.map_err(|e| by_flag(&e))?;
     for note in picture.notes() {
-        say(&format!("note: {note}"));
+        words.say(&format!("note: {note}"));
     }
     if let Some(note) = prepared.sight().note() {
-        say(&format!("note: {note}"));
+        words.say(&format!("note: {note}"));
     }
     let start = scene::fit::Contour {
         points: session.start().to_vec(),
         closed,
     };
-    let found = watched(session, args.steps).finish();
+    let stop = Stop::listen();
+    let found = watched(session, args.steps, &stop, words);
+    words.detail(&format!("{}", found.chosen));
     if matches!(found.outcome, Outcome::Diverged { .. }) {
-        say(&format!("{TITLE}: {}; no contour to write", found.outcome));
+        words.say(&format!("{TITLE}: {}; no contour to write", found.outcome));
         return Ok(ExitCode::from(1));
     }
     let (start, end) = ([curve(start)], [curve(found.contour)]);
-    let printed = output.curves(Some(&picture), &start, &end)?;
+    let printed = output.curves(Some(&picture), &start, &end, words)?;
     put(&printed)?;
-    say(&format!("{TITLE}: {}", found.outcome));
+    words.say(&format!("{TITLE}: {}", found.outcome));
     let short = matches!(found.outcome, Outcome::Finished { .. });
     if short {
-        say("it was to come to rest and has not: allow more steps");
+        words.say("it was to come to rest and has not: allow more steps");
     }
-    let objected = found.quality.as_ref().is_some_and(|q| objects(TITLE, q));
-    Ok(if found.outcome.is_good() && !short && !objected {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::from(1)
-    })
+    let stopped = stop.asked();
+    if stopped {
+        words.say(STOPPED);
+    }
+    let quality = found.quality.as_ref();
+    let objected = quality.is_some_and(|quality| objects(TITLE, quality, words));
+    let good = found.outcome.is_good() && !short && !objected && !stopped;
+    let held = found.nodes.iter().map(|node| node.strength);
+    words.end(&json!({
+        "title": TITLE,
+        "outcome": found.outcome.name(),
+        "message": found.outcome.to_string(),
+        "steps": found.steps,
+        "good": good,
+        "nodes": found.nodes.len(),
+        "least_strength": held.fold(f64::INFINITY, f64::min),
+        "curves": quality.map(told).into_iter().collect::<Vec<_>>(),
+        "chosen": found.chosen.to_string(),
+    }))?;
+    Ok(code(good))
 }
 
 /// The options that flags stand for.
@@ -93,7 +126,7 @@ fn options(args: &args::Fit) -> Result<Options, SceneError> {
         tension: args.tension,
         rigidity: args.rigidity,
         damping: args.damping,
-        sigma: args.sigma,
+        sigma: args.sigma.unwrap_or(usual.sigma),
         strength: args.strength,
         forces: forces.map(scene::ForceChoice::for_fit).collect(),
         polarity,
@@ -114,13 +147,17 @@ fn curve(contour: scene::fit::Contour) -> Shape {
 }
 
 /// Step with a progress bar on standard error, when a person is there to see it, until it ends.
-fn watched(mut session: Session, steps: u64) -> Session {
-    let bar = bar(steps);
+fn watched(mut session: Session, steps: u64, stop: &Stop, words: Words) -> fit::Fit {
+    let bar = bar(steps, words);
     while session.step(STEPS_A_LOOK).is_none() {
+        if stop.asked() {
+            bar.finish_and_clear();
+            return session.stop();
+        }
         bar.set_position(session.steps());
     }
     bar.finish_and_clear();
-    session
+    session.finish()
 }
 
 /// An error under the flag that stands for its option.

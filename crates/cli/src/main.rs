@@ -1,12 +1,14 @@
 //! The command `snake`: the shell's question as a scene, the outcome as text and a code.
 //!
-//! Exit code 0: it came to rest, or ran as asked. 1: it ran, but blew up, left the picture or ran
-//! out of steps before rest. 2: refused, with one line that says why and what would do.
+//! Exit code 0: it came to rest, or ran as asked. 1: it ran, but blew up, left the picture, found no outline,
+//! was stopped, or ran out of steps before rest. 2: refused, with one line that says why and what is needed.
 
 mod args;
 mod commands;
 mod fitting;
+mod manual;
 mod output;
+mod stop;
 
 use std::process::ExitCode;
 
@@ -19,12 +21,15 @@ fn main() -> ExitCode {
         Ok(args) => args,
         Err(error) => return mistyped(&error),
     };
+    let words = args.words;
     let outcome = match args.command {
-        args::Command::Run(run) => commands::run(&run),
-        args::Command::Field(field) => commands::field(&field),
-        args::Command::Fit(fit) => fitting::fit(&fit),
+        args::Command::Run(run) => commands::run(&run, words),
+        args::Command::Field(field) => commands::field(&field, words),
+        args::Command::Fit(fit) => fitting::fit(&fit, words),
         args::Command::Show(show) => commands::show(&show),
-        args::Command::List(list) => commands::list(&list),
+        args::Command::List(list) => commands::list(&list, words),
+        args::Command::Completions(completions) => manual::completions(&completions),
+        args::Command::Man(man) => manual::page(&man),
     };
     match outcome {
         Ok(code) => code,
@@ -35,7 +40,7 @@ fn main() -> ExitCode {
                 }
                 _ => "",
             };
-            output::say(&format!("snake: {error}{hint}"));
+            output::complain(&format!("snake: {error}{hint}"));
             ExitCode::from(2)
         }
     }
@@ -47,7 +52,7 @@ fn mistyped(error: &clap::Error) -> ExitCode {
         return match output::put(&error.render().to_string()) {
             Ok(()) => ExitCode::SUCCESS,
             Err(refused) => {
-                output::say(&format!("snake: {refused}"));
+                output::complain(&format!("snake: {refused}"));
                 ExitCode::from(2)
             }
         };
@@ -72,10 +77,10 @@ fn mistyped(error: &clap::Error) -> ExitCode {
         _ => lines.join("; "),
     };
     let line = line.strip_prefix("error: ").unwrap_or(&line);
-    output::say(&format!("snake: {line} (--help shows all)"));
+    output::complain(&format!("snake: {line} (--help shows all)"));
     if error.kind() == ErrorKind::MissingRequiredArgument {
         let usage = text.lines().find(|line| line.starts_with("Usage:"));
-        usage.into_iter().for_each(output::say);
+        usage.into_iter().for_each(output::complain);
     }
     ExitCode::from(2)
 }

@@ -8,6 +8,7 @@ use io::{Claims, Picture, is_standard, paint, shapes};
 use scene::snake::Outcome;
 use scene::{Record, Scene, SceneError};
 
+use crate::args::Words;
 use crate::commands::key;
 
 /// Colours of the start and of the result over a picture.
@@ -26,10 +27,34 @@ pub(crate) fn put(text: &str) -> Result<(), SceneError> {
     }
 }
 
-/// A line for people, to standard error; nobody may be there to read it.
-pub(crate) fn say(text: &str) {
+/// An error for people, to standard error; nobody may be there to read it.
+pub(crate) fn complain(text: &str) {
     // titles and names come from files: whatever they hold stays on one line
     let _ = writeln!(std::io::stderr(), "{}", io::text::plain(text));
+}
+
+impl Words {
+    /// A line for people, to standard error, unless they asked for quiet.
+    pub(crate) fn say(self, text: &str) {
+        if !self.quiet {
+            complain(text);
+        }
+    }
+
+    /// The same for those who want to know more.
+    pub(crate) fn detail(self, text: &str) {
+        if self.verbose {
+            complain(text);
+        }
+    }
+
+    /// How it ended, as one line of JSON on standard output, if that was asked for.
+    pub(crate) fn end(self, end: &serde_json::Value) -> Result<(), SceneError> {
+        if self.json {
+            return put(&format!("{end}\n"));
+        }
+        Ok(())
+    }
 }
 
 /// Whether standard output is the null device, which also stands in for one that was closed.
@@ -72,7 +97,15 @@ impl Output {
         &self,
         picture: Option<&Picture>,
         inputs: &[PathBuf],
+        words: Words,
     ) -> Result<(), SceneError> {
+        let mut all = self.all().into_iter();
+        if words.json
+            && let Some((flag, _)) = all.find(|(_, path)| path.is_some_and(|path| is_standard(path)))
+        {
+            let message = format!("writes to standard output, and so does {flag}; give {flag} a file");
+            return Err(key("--json", message));
+        }
         if let Some(path) = &self.overlay {
             if picture.is_none() {
                 return Err(key("--overlay", "this scene has no picture to draw on"));
@@ -101,7 +134,12 @@ impl Output {
     }
 
     /// Write what was asked for. A run that blew up has no contour to show, only a record.
-    pub(crate) fn write(&self, scene: &Scene, record: &Record) -> Result<(), SceneError> {
+    pub(crate) fn write(
+        &self,
+        scene: &Scene,
+        record: &Record,
+        words: Words,
+    ) -> Result<(), SceneError> {
         let (Some(first), Some(last)) = (record.frames.first(), record.last()) else {
             return Err(key("run", "nothing was kept"));
         };
@@ -113,7 +151,7 @@ impl Output {
         }
         if !matches!(record.outcome, Outcome::Diverged { .. }) {
             let (start, found) = (first.shapes(), last.shapes());
-            printed.push_str(&self.curves(scene.picture.as_deref(), &start, &found)?);
+            printed.push_str(&self.curves(scene.picture.as_deref(), &start, &found, words)?);
         }
         put(&printed)
     }
@@ -125,13 +163,14 @@ impl Output {
         picture: Option<&Picture>,
         start: &[Shape],
         found: &[Shape],
+        words: Words,
     ) -> Result<String, SceneError> {
         let mut printed = String::new();
         match &self.contour {
-            Some(_) if found.is_empty() => say("no curve is left: no contour is written"),
+            Some(_) if found.is_empty() => words.say("no curve is left: no contour is written"),
             Some(path) if is_standard(path) => {
                 if goes_nowhere() {
-                    say(
+                    words.say(
                         "note: standard output is closed or /dev/null: the contour is kept nowhere",
                     );
                 }

@@ -138,7 +138,19 @@ impl Session {
         let outcome = self.step(u64::MAX);
         // it always ends: the steps are counted
         let step = self.steps();
-        let outcome = outcome.unwrap_or(Outcome::Finished { step });
+        self.found(outcome.unwrap_or(Outcome::Finished { step }))
+    }
+
+    /// End it here, and say what there is.
+    #[must_use]
+    pub fn stop(self) -> Fit {
+        let step = self.steps();
+        let outcome = self.outcome.unwrap_or(Outcome::Stopped { step });
+        self.found(outcome)
+    }
+
+    fn found(self, outcome: Outcome) -> Fit {
+        let step = self.steps();
         let blown_up = matches!(outcome, Outcome::Diverged { .. });
         let settled = matches!(outcome, Outcome::Settled { .. });
         let sigma = self.prepared.options().sigma;
