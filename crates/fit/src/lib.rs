@@ -4,16 +4,17 @@
 //! use fit::{Contour, Image, Options, fit};
 //! use glam::DVec2;
 //!
-//! // a bright disc of radius 20 on a dark ground, its border smooth over a pixel
+//! // a bright disc of radius 30 on a dark ground, its border smooth over a pixel
 //! let center = DVec2::new(48.0, 44.0);
-//! let inside = |p: DVec2| (20.5 - p.distance(center)).clamp(0.0, 1.0);
+//! let inside = |p: DVec2| (30.5 - p.distance(center)).clamp(0.0, 1.0);
 //! let level = |(y, x)| 40.0 + 160.0 * inside(DVec2::new(x as f64, y as f64));
 //! let image = Image::grey(field::Grid::from_shape_fn((96, 96), level));
 //!
-//! let found = fit(&image, &Contour::circle(DVec2::new(50.0, 43.0), 25.0), &Options::default())?;
+//! let options = Options { sigma: 1.0, ..Options::default() };
+//! let found = fit(&image, &Contour::circle(DVec2::new(49.0, 43.0), 33.0), &options)?;
 //! let radii = found.contour.points.iter().map(|p| p.distance(center));
 //! let mean = radii.sum::<f64>() / found.contour.points.len() as f64;
-//! assert!(found.is_outline() && (mean - 20.0).abs() < 0.05);
+//! assert!(found.is_outline() && (mean - 30.0).abs() < 0.05, "{mean}");
 //! # Ok::<(), fit::FitError>(())
 //! ```
 //!

@@ -7,7 +7,7 @@ use field::Polarity;
 use glam::DVec2;
 use snake::Acting;
 
-use crate::force::{Computing, ImageForceKind, Sight};
+use crate::force::{Computing, ImageForceKind, PULL, Sight};
 use crate::limits::MOST_STEPS;
 use crate::{FitError, OptionKey, Problem};
 
@@ -89,7 +89,7 @@ impl Options {
             let checked = Problem::above_zero(spacing);
             checked.map_err(|problem| FitError::new(OptionKey::Nodes, problem))?;
         }
-        if !self.balloon.is_finite() {
+        if !(PULL * self.balloon).is_finite() {
             let (needed, got) = ("finite", self.balloon);
             return Err(FitError::new(
                 OptionKey::Balloon,
