@@ -25,7 +25,8 @@ pub enum Edit {
     },
     /// Pull no longer.
     LetGo,
-    /// Let the edge force pull with another strength, as [`Options::strength`](crate::Options::strength) says.
+    /// Let the edge force pull with another strength, as
+    /// [`Options::strength`](crate::Options::strength) says.
     Strength(f64),
     /// Give the curve another resistance.
     Material {
@@ -60,7 +61,7 @@ impl Session {
                 to,
                 stiffness,
             } => {
-                if node >= self.state.len() || !to.is_finite() {
+                if node >= self.state.len() {
                     let problem = Problem::Count {
                         least: 0,
                         most: self.state.len() as u64 - 1,
@@ -68,8 +69,15 @@ impl Session {
                     };
                     return Err(FitError::new(OptionKey::Nodes, problem));
                 }
+                if let Some(got) = to.to_array().into_iter().find(|c| !c.is_finite()) {
+                    let needed = "finite";
+                    return Err(FitError::new(
+                        OptionKey::Pull,
+                        Problem::Number { needed, got },
+                    ));
+                }
                 let stiffness = Problem::above_zero(stiffness)
-                    .map_err(|problem| FitError::new(OptionKey::Strength, problem))?;
+                    .map_err(|problem| FitError::new(OptionKey::Pull, problem))?;
                 let spring = Acting::new(Spring::at_node(node, to, stiffness)).named(HAND);
                 let before = self.snake.remove_force(HAND);
                 if let Err(error) = self.snake.add_force(spring) {
@@ -77,7 +85,7 @@ impl Session {
                         // it was there, so it is not refused
                         let _ = self.snake.add_force(before);
                     }
-                    return Err(FitError::new(OptionKey::Strength, error));
+                    return Err(FitError::new(OptionKey::Pull, error));
                 }
             }
             Edit::LetGo => drop(self.snake.remove_force(HAND)),

@@ -18,9 +18,10 @@
 //! # Ok::<(), fit::FitError>(())
 //! ```
 //!
-//! The contour becomes an elastic curve, the image a force that pulls it to edges, and the curve comes to
-//! rest: on the edge, or where its elasticity stops it. [`Options`] has every choice with its unit and
-//! default; [`Fit`] says what was found, how the image supports it as a whole and node by node, and what was chosen.
+//! The contour becomes an elastic curve, the image a force that pulls it to edges, and the curve
+//! comes to rest: on the edge, or where its elasticity stops it. [`Options`] has every choice with
+//! its unit and default; [`Fit`] says what was found, how the image supports it as a whole and node
+//! by node, and what was chosen.
 //!
 //! | wanted | by |
 //! | --- | --- |
@@ -34,16 +35,17 @@
 //! # The way to rest
 //!
 //! Only where the curve comes to rest is of interest, not how it swings there. So it moves without
-//! inertia, in steps of [`integrator::Relaxation`]: at first as short as the image's detail asks for (no node
-//! farther than a quarter of σ), so that it finds the edge that a slow motion finds; then longer and
-//! longer, until a step is one of Newton's method on the elastic force and the slope of the edge together. Tens to
-//! hundreds of steps lead to where thousands of small ones lead.
+//! inertia, in steps of [`integrator::Relaxation`]: at first as short as the image's detail asks
+//! for (no node farther than a quarter of σ), so that it finds the edge that a slow motion finds;
+//! then longer and longer, until a step is one of Newton's method on the elastic force and the
+//! slope of the edge together. Tens to hundreds of steps lead to where thousands of small ones
+//! lead.
 //!
-//! Units: pixels with x to the right and y down, the first pixel's center at (0, 0); grey levels of any
-//! range, since all strengths are relative to the image's own contrast.
+//! Units: pixels with x to the right and y down, the first pixel's center at (0, 0); grey levels of
+//! any range, since all strengths are relative to the image's own contrast.
 //!
-//! This crate does no I/O, names no flag and no file, and knows no text. Its errors say which option is
-//! concerned ([`OptionKey`]), what is needed and what was given.
+//! This crate does no I/O, names no flag and no file, and knows no text. Its errors say which
+//! option is concerned ([`OptionKey`]), what is needed and what was given.
 
 mod contour;
 mod edit;

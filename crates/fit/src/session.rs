@@ -11,8 +11,8 @@ use crate::nodes::node_evidence;
 use crate::setup::{bordered, mover, place, unfit};
 use crate::{Choices, Contour, Evidence, Fit, FitError, Prepared};
 
-/// The least distance of the found sides of a bar that is wide enough, in σ: those of a thin line are 2 σ apart
-/// however thin it is, those of a bar of 2 σ are 2.3 σ.
+/// The least distance of the found sides of a bar that is wide enough, in σ: those of a thin line
+/// are 2 σ apart however thin it is, those of a bar of 2 σ are 2.3 σ.
 const RESOLVES: f64 = 2.5;
 
 /// A curve on its way to an outline, one step or many at a time.
@@ -22,7 +22,8 @@ const RESOLVES: f64 = 2.5;
 /// use glam::DVec2;
 ///
 /// let bright = |x: usize, y: usize| (x as f64 - 30.0).hypot(y as f64 - 30.0) < 15.0;
-/// let levels = field::Grid::from_shape_fn((61, 61), |(y, x)| if bright(x, y) { 200.0 } else { 50.0 });
+/// let level = |(y, x)| if bright(x, y) { 200.0 } else { 50.0 };
+/// let levels = field::Grid::from_shape_fn((61, 61), level);
 /// let prepared = Prepared::of(&Image::grey(levels), &Options::default())?;
 /// let mut session = prepared.session(&Contour::circle(DVec2::new(31.0, 30.0), 18.0))?;
 /// while session.step(5).is_none() {} // draw session.nodes() here
@@ -64,10 +65,9 @@ impl Session {
         let spacing = body.spacing;
         let world = bordered(prepared.world(&x, closed)?, prepared)?;
         let mut snake = Snake::new(body, world).map_err(unfit)?;
-        let mut state = State::at_rest(x.clone());
+        let state = State::at_rest(x.clone());
         let (stepper, chosen) = mover(prepared, &mut snake, &state)?;
         let running = Running::begin(&mut snake, &state, until(options.steps));
-        state.step = 0;
         let chosen = Choices {
             contrast: prepared.sight().true_contrast(),
             nodes: x.len(),
@@ -125,7 +125,11 @@ impl Session {
 
     /// Look for rest anew.
     pub(crate) fn begin_again(&mut self) {
-        self.stepper.resume(&mut self.snake, &self.state);
+        // steps that suit the curve as it is now; equal ones that have become too long stay as asked for
+        match mover(&self.prepared, &mut self.snake, &self.state) {
+            Ok((stepper, _)) => self.stepper = stepper,
+            Err(_) => self.stepper.resume(&mut self.snake, &self.state),
+        }
         let until = until(self.prepared.options().steps);
         self.running = Running::begin(&mut self.snake, &self.state, until);
         self.outcome = None;

@@ -130,6 +130,14 @@ fn edits_act_and_are_refused_by_their_key() {
             OptionKey::Nodes,
         ),
         (
+            Edit::Pull {
+                node: 0,
+                to: DVec2::NAN,
+                stiffness: 1.0,
+            },
+            OptionKey::Pull,
+        ),
+        (
             Edit::Material {
                 tether: 0.0,
                 tension: -1.0,
