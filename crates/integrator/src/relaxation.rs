@@ -53,7 +53,7 @@ const TRIES: usize = 60;
 /// and damping; which one is found may depend on them. Without damping there is no rest. One force,
 /// its slope and one or more factors of a wide band a step: O(n p²).
 ///
-/// [kelley98]; for short steps [rosenbrock63] with one stage.
+/// \[kelley98\]; for short steps \[rosenbrock63\] with one stage.
 #[derive(Debug)]
 pub struct Relaxation {
     clock: Clock,
