@@ -1,7 +1,7 @@
 //! How far the levels of a picture reach, and how far those of most of its pixels.
 
-/// The least, the 2nd and the 98th percentile, and the largest, in this order; zeros where there is none.
-/// The values are asked for several times. O(values).
+/// The least, the 2nd and the 98th percentile, and the largest, in this order; zeros where there is
+/// none. The values are asked for several times. O(values).
 #[must_use]
 pub fn level_limits<I: Iterator<Item = f64>>(values: impl Fn() -> I) -> [f64; 4] {
     let mut n = 0;
@@ -28,7 +28,8 @@ pub fn level_limits<I: Iterator<Item = f64>>(values: impl Fn() -> I) -> [f64; 4]
 /// Bits that are told apart at a time.
 const DIGIT: u32 = 16;
 
-/// The values that stand at these ranks in order, found digit by digit: by counting, without a copy of the values.
+/// The values that stand at these ranks in order, found digit by digit: by counting, without a copy
+/// of the values.
 fn at_ranks<I: Iterator<Item = f64>>(values: impl Fn() -> I, mut ranks: [usize; 2]) -> [f64; 2] {
     // numbers whose order is that of `f64::total_cmp`
     let key = |value: f64| {
@@ -75,7 +76,8 @@ fn at_ranks<I: Iterator<Item = f64>>(values: impl Fn() -> I, mut ranks: [usize; 
     })
 }
 
-/// From the 2nd to the 98th percentile, or where these are one, from the least to the largest; 0 for a constant.
+/// From the 2nd to the 98th percentile, or where these are one, from the least to the largest; 0
+/// for a constant.
 #[must_use]
 pub fn level_spread([least, low, high, largest]: [f64; 4]) -> f64 {
     // less than the rounding of colors to grey leaves

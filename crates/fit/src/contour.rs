@@ -44,8 +44,8 @@ impl Contour {
         Self::closed((0..ROUND).map(|i| center + half * turn(i)).collect())
     }
 
-    /// A rectangle by two opposite corners, with points along its sides so that a spline through them
-    /// keeps to the sides.
+    /// A rectangle by two opposite corners, with points along its sides so that a spline through
+    /// them keeps to the sides.
     #[must_use]
     pub fn rectangle(one: DVec2, other: DVec2) -> Self {
         let (low, high) = (one.min(other), one.max(other));

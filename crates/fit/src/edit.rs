@@ -25,7 +25,8 @@ pub enum Edit {
     },
     /// Pull no longer.
     LetGo,
-    /// Let the edge force pull with another strength, as [`Options::strength`](crate::Options::strength) says.
+    /// Let the edge force pull with another strength, as
+    /// [`Options::strength`](crate::Options::strength) says.
     Strength(f64),
     /// Give the curve another resistance.
     Material {
@@ -57,7 +58,7 @@ impl Session {
                 stiffness,
             } => {
                 let nodes = self.nodes().len();
-                if node >= nodes || !to.is_finite() {
+                if node >= nodes {
                     let problem = Problem::Count {
                         least: 0,
                         most: nodes as u64 - 1,
@@ -65,18 +66,25 @@ impl Session {
                     };
                     return Err(FitError::new(OptionKey::Nodes, problem));
                 }
+                if let Some(got) = to.to_array().into_iter().find(|c| !c.is_finite()) {
+                    let needed = "finite";
+                    return Err(FitError::new(
+                        OptionKey::Pull,
+                        Problem::Number { needed, got },
+                    ));
+                }
                 let stiffness = Problem::above_zero(stiffness)
-                    .map_err(|problem| FitError::new(OptionKey::Strength, problem))?;
+                    .map_err(|problem| FitError::new(OptionKey::Pull, problem))?;
                 let spring = Acting::new(Spring::at_node(node, to, stiffness)).named(HAND);
                 let edit = if self.pulls() {
                     snake::Edit::Replace(spring)
                 } else {
                     snake::Edit::Add(spring)
                 };
-                self.change(OptionKey::Strength, edit)?;
+                self.change(OptionKey::Pull, edit)?;
             }
             Edit::LetGo if self.pulls() => {
-                self.change(OptionKey::Strength, snake::Edit::Remove(HAND.to_owned()))?;
+                self.change(OptionKey::Pull, snake::Edit::Remove(HAND.to_owned()))?;
             }
             Edit::LetGo => {}
             Edit::Strength(strength) => self.pull_by(strength)?,

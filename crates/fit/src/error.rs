@@ -1,4 +1,5 @@
-//! What can be wrong with an image, a start or an option: which one, what is needed, what was given.
+//! What can be wrong with an image, a start or an option: which one, what is needed, what was
+//! given.
 
 use std::fmt;
 
@@ -54,6 +55,8 @@ pub enum OptionKey {
     Step,
     /// [`Options::steps`](crate::Options::steps).
     Steps,
+    /// The spring of [`Edit::Pull`](crate::Edit::Pull).
+    Pull,
     /// A force of [`Options::forces`](crate::Options::forces), by its index, and which value of it.
     Force(usize, ForceKey),
 }
@@ -74,6 +77,7 @@ impl fmt::Display for OptionKey {
             Self::Balloon => "balloon",
             Self::Step => "step",
             Self::Steps => "steps",
+            Self::Pull => "pull",
             Self::Force(index, ForceKey::All) => return write!(f, "force {index}"),
             Self::Force(index, key) => return write!(f, "force {index}, {}", key.word()),
         };

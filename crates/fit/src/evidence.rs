@@ -1,6 +1,8 @@
-//! What speaks for an outline that has been found: that the image holds it, that it is an outline at all.
+//! What speaks for an outline that has been found: that the image holds it, that it is an outline
+//! at all.
 //!
-//! A curve can come to rest where nothing pulls, folded onto itself, or inside out. Rest alone is no success.
+//! A curve can come to rest where nothing pulls, folded onto itself, or inside out. Rest alone is
+//! no success.
 
 use std::fmt;
 
@@ -14,7 +16,8 @@ use crate::force::PULL;
 /// How far to either side of a node the forces are asked for. Pixels.
 pub(crate) const PROBE: f64 = 1.0;
 
-/// The least stiffness, against that of an edge as high as the image's contrast, that counts as a hold.
+/// The least stiffness, against that of an edge as high as the image's contrast, that counts as a
+/// hold.
 const FIRM: f64 = 0.01;
 
 /// The least share of a closed outline that must be held, or of an open one.
@@ -35,7 +38,8 @@ pub struct Evidence {
     pub crossings: usize,
     /// Signed area at the start and at the end, of a closed curve. Square pixels.
     pub area: Option<(f64, f64)>,
-    /// Parts of the curve that face each other more closely than the image's smoothing can resolve, if any.
+    /// Parts of the curve that face each other more closely than the image's smoothing can resolve,
+    /// if any.
     pub narrow: Option<Narrow>,
 }
 
@@ -51,10 +55,11 @@ pub struct Narrow {
 }
 
 impl Evidence {
-    /// What speaks for the curve at `end`, which began at `start`; `width`: the least distance of two edges that the
-    /// smoothing keeps apart, if known.
+    /// What speaks for the curve at `end`, which began at `start`; `width`: the least distance of
+    /// two edges that the smoothing keeps apart, if known.
     ///
-    /// The forces of the image are asked for a pixel inside and a pixel outside of every node: O(n).
+    /// The forces of the image are asked for a pixel inside and a pixel outside of every node:
+    /// O(n).
     pub fn of(snake: &mut Snake, start: &[DVec2], end: &State, width: Option<f64>) -> Self {
         let closed = snake.body().topology.is_closed();
         let area = closed.then(|| (elastic::signed_area(start), elastic::signed_area(&end.x)));
@@ -136,8 +141,8 @@ pub(crate) fn normals(x: &[DVec2], closed: bool) -> Vec<DVec2> {
     (0..n).map(normal).collect()
 }
 
-/// The image's forces along `normals` when every node is moved along its own by `way`; None where one has
-/// no value.
+/// The image's forces along `normals` when every node is moved along its own by `way`; None where
+/// one has no value.
 pub(crate) fn pulls(
     snake: &mut Snake,
     end: &State,

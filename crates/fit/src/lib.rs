@@ -4,22 +4,24 @@
 //! use fit::{Contour, Image, Options, fit};
 //! use glam::DVec2;
 //!
-//! // a bright disc of radius 20 on a dark ground, its border smooth over a pixel
+//! // a bright disc of radius 30 on a dark ground, its border smooth over a pixel
 //! let center = DVec2::new(48.0, 44.0);
-//! let inside = |p: DVec2| (20.5 - p.distance(center)).clamp(0.0, 1.0);
+//! let inside = |p: DVec2| (30.5 - p.distance(center)).clamp(0.0, 1.0);
 //! let level = |(y, x)| 40.0 + 160.0 * inside(DVec2::new(x as f64, y as f64));
 //! let image = Image::grey(field::Grid::from_shape_fn((96, 96), level));
 //!
-//! let found = fit(&image, &Contour::circle(DVec2::new(50.0, 43.0), 25.0), &Options::default())?;
+//! let options = Options { sigma: 1.0, ..Options::default() };
+//! let found = fit(&image, &Contour::circle(DVec2::new(49.0, 43.0), 33.0), &options)?;
 //! let radii = found.contour.points.iter().map(|p| p.distance(center));
 //! let mean = radii.sum::<f64>() / found.contour.points.len() as f64;
-//! assert!(found.is_outline() && (mean - 20.0).abs() < 0.05);
+//! assert!(found.is_outline() && (mean - 30.0).abs() < 0.05, "{mean}");
 //! # Ok::<(), fit::FitError>(())
 //! ```
 //!
-//! The contour becomes an elastic curve, the image a force that pulls it to edges, and the curve comes to
-//! rest: on the edge, or where its elasticity stops it. [`Options`] has every choice with its unit and
-//! default; [`Fit`] says what was found, how the image supports it as a whole and node by node, and what was chosen.
+//! The contour becomes an elastic curve, the image a force that pulls it to edges, and the curve
+//! comes to rest: on the edge, or where its elasticity stops it. [`Options`] has every choice with
+//! its unit and default; [`Fit`] says what was found, how the image supports it as a whole and node
+//! by node, and what was chosen.
 //!
 //! | wanted | by |
 //! | --- | --- |
@@ -33,16 +35,17 @@
 //! # The way to rest
 //!
 //! Only where the curve comes to rest is of interest, not how it swings there. So it moves without
-//! inertia, in steps of [`integrator::Relaxation`]: at first as short as the image's detail asks for (no node
-//! farther than a quarter of σ), so that it finds the edge that a slow motion finds; then longer and
-//! longer, until a step is one of Newton's method on the elastic force and the slope of the edge together. Tens to
-//! hundreds of steps lead to where thousands of small ones lead.
+//! inertia, in steps of [`integrator::Relaxation`]: at first as short as the image's detail asks
+//! for (no node farther than a quarter of σ), so that it finds the edge that a slow motion finds;
+//! then longer and longer, until a step is one of Newton's method on the elastic force and the
+//! slope of the edge together. Tens to hundreds of steps lead to where thousands of small ones
+//! lead.
 //!
-//! Units: pixels with x to the right and y down, the first pixel's center at (0, 0); grey levels of any
-//! range, since all strengths are relative to the image's own contrast.
+//! Units: pixels with x to the right and y down, the first pixel's center at (0, 0); grey levels of
+//! any range, since all strengths are relative to the image's own contrast.
 //!
-//! This crate does no I/O, names no flag and no file, and knows no text. Its errors say which option is
-//! concerned ([`OptionKey`]), what is needed and what was given.
+//! This crate does no I/O, names no flag and no file, and knows no text. Its errors say which
+//! option is concerned ([`OptionKey`]), what is needed and what was given.
 
 mod contour;
 mod edit;

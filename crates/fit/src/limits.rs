@@ -10,8 +10,8 @@ pub(crate) const MOST_NODES: usize = 1 << 20;
 /// Pixels of all force fields of an image together, 16 bytes each: 2 GiB. One field is always made.
 pub(crate) const MOST_FIELDS: u64 = 1 << 27;
 
-/// Pixels an image may have to be worked on as a whole, 11585 × 11585: all stages of a force together
-/// hold about a hundred bytes a pixel, so some 13 GB.
+/// Pixels an image may have to be worked on as a whole, 11585 × 11585: all stages of a force
+/// together hold about a hundred bytes a pixel, so some 13 GB.
 pub(crate) const MOST_WHOLE: u64 = 1 << 27;
 
 /// Pixels times taps of a smoothing along one axis: about half a minute of work.
@@ -26,7 +26,8 @@ pub(crate) const MOST_STEPS: u64 = 1_000_000_000;
 /// Bytes a pixel that all stages of a force take together.
 const WORK: u64 = 100;
 
-/// Refuse what there is no memory for, before any is filled: so many bytes are asked for and given back.
+/// Refuse what there is no memory for, before any is filled: so many bytes are asked for and given
+/// back.
 fn room(bytes: u64) -> Result<(), String> {
     let there = usize::try_from(bytes).is_ok_and(|bytes| {
         let mut list: Vec<u8> = Vec::new();
@@ -41,7 +42,8 @@ fn room(bytes: u64) -> Result<(), String> {
     ))
 }
 
-/// Refuse a smoothing that takes minutes on an image of this width and height, or that makes no sense.
+/// Refuse a smoothing that takes minutes on an image of this width and height, or that makes no
+/// sense.
 ///
 /// # Errors
 ///

@@ -16,15 +16,16 @@ pub struct Job<'a> {
     pub start: &'a Contour,
 }
 
-/// Run jobs on so many threads, and hand each result over in the order of the jobs, as soon as it and all
-/// before it are there. The results do not depend on the number of threads.
+/// Run jobs on so many threads, and hand each result over in the order of the jobs, as soon as it
+/// and all before it are there. The results do not depend on the number of threads.
 ///
 /// ```
 /// use fit::{Contour, Image, Job, Options, Prepared, fit_many};
 /// use glam::DVec2;
 ///
 /// let bright = |x: usize, y: usize| (x as f64 - 30.0).hypot(y as f64 - 30.0) < 15.0;
-/// let levels = field::Grid::from_shape_fn((61, 61), |(y, x)| if bright(x, y) { 200.0 } else { 50.0 });
+/// let level = |(y, x)| if bright(x, y) { 200.0 } else { 50.0 };
+/// let levels = field::Grid::from_shape_fn((61, 61), level);
 /// let prepared = Prepared::of(&Image::grey(levels), &Options::default())?;
 /// let starts = [17.0, 18.0, 19.0].map(|radius| Contour::circle(DVec2::new(31.0, 30.0), radius));
 /// let jobs: Vec<Job> = starts.iter().map(|start| Job { prepared: &prepared, start }).collect();

@@ -50,7 +50,8 @@ pub(crate) fn node_evidence(
         .collect()
 }
 
-/// Where along its normal each node is pulled neither way, and back from both sides; the nearest such place.
+/// Where along its normal each node is pulled neither way, and back from both sides; the nearest
+/// such place.
 fn offsets(snake: &mut Snake, end: &State, normals: &[DVec2], far: f64) -> Vec<Option<f64>> {
     let mut found = vec![None; end.len()];
     let Some(here) = pulls(snake, end, normals, 0.0) else {
@@ -85,8 +86,8 @@ fn offsets(snake: &mut Snake, end: &State, normals: &[DVec2], far: f64) -> Vec<O
 
 /// The gradient of the image smoothed by a Gaussian, over the pixels that count. Levels per pixel.
 ///
-/// The smoothed level is N / D with N = Σ G I and D = Σ G over the pixels that count, so its gradient is
-/// (∇N − (N / D) ∇D) / D.
+/// The smoothed level is N / D with N = Σ G I and D = Σ G over the pixels that count, so its
+/// gradient is (∇N − (N / D) ∇D) / D.
 fn slope_at(image: &Image, sigma: f64, at: DVec2) -> DVec2 {
     let (width, height) = image.size();
     let pixels = image.pixels();

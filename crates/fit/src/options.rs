@@ -7,14 +7,15 @@ use field::Polarity;
 use glam::DVec2;
 use snake::Acting;
 
-use crate::force::{Computing, ImageForceKind, Sight};
+use crate::force::{Computing, ImageForceKind, PULL, Sight};
 use crate::limits::MOST_STEPS;
 use crate::{FitError, OptionKey, Problem};
 
-/// How to fit a contour to an image. The default suits outlines of some tens to thousands of pixels drawn
-/// within about ten pixels of an edge.
+/// How to fit a contour to an image. The default suits outlines of some tens to thousands of pixels
+/// drawn within about ten pixels of an edge.
 ///
-/// L is a pixel, T a unit of time, M a unit of mass; strengths are relative to the image's contrast.
+/// L is a pixel, T a unit of time, M a unit of mass; strengths are relative to the image's
+/// contrast.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// How many nodes the curve has.
@@ -25,20 +26,22 @@ pub struct Options {
     pub tension: f64,
     /// ω₂: how hard the curve resists bending out of the start's shape. M L⁴ T⁻².
     pub rigidity: f64,
-    /// γ, the damping; μ, the mass, is 1. M T⁻¹. Where the curve comes to rest does not depend on it.
+    /// γ, the damping; μ, the mass, is 1. M T⁻¹. Places of rest do not depend on it; which of them
+    /// is found may, and without any damping none is.
     pub damping: f64,
-    /// σ of the Gaussian that smooths the image for the edge force. L. The force reaches about three times
-    /// that.
+    /// σ of the Gaussian that smooths the image for the edge force. L. The force reaches about
+    /// three times that.
     pub sigma: f64,
-    /// Pull of an edge as high as the image's contrast, relative to that of an edge of 120 grey levels
-    /// under the report's rules.
+    /// Pull of an edge as high as the image's contrast, relative to that of an edge of 120 grey
+    /// levels under the report's rules.
     pub strength: f64,
     /// Forces to pull with instead of that edge force; none for it alone.
     pub forces: Vec<FitForce>,
-    /// Which edges attract, going outwards: of that edge force, and of every chosen one that does not say.
+    /// Which edges attract, going outwards: of that edge force, and of every chosen one that does
+    /// not say.
     pub polarity: Polarity,
-    /// Pressure inside the curve, in pulls of that edge force at strength 1: above 0 it grows, below 0 it
-    /// shrinks; 0.1 is much.
+    /// Pressure inside the curve, in pulls of that edge force at strength 1: above 0 it grows,
+    /// below 0 it shrinks; 0.1 is much.
     pub balloon: f64,
     /// Whether the edge force is computed where the curve goes, or as a whole.
     pub computing: Computing,
@@ -89,7 +92,7 @@ impl Options {
             let checked = Problem::above_zero(spacing);
             checked.map_err(|problem| FitError::new(OptionKey::Nodes, problem))?;
         }
-        if !self.balloon.is_finite() {
+        if !(PULL * self.balloon).is_finite() {
             let (needed, got) = ("finite", self.balloon);
             return Err(FitError::new(
                 OptionKey::Balloon,
@@ -140,10 +143,11 @@ impl Nodes {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Step {
     /// As short as the image's detail asks for on the way, and longer and longer as the forces die:
-    /// the shortest way to rest ([`integrator::Relaxation`]). With forces of one's own, half of the largest
-    /// step of leapfrog, and at most 0.2 T.
+    /// the shortest way to rest ([`integrator::Relaxation`]). With forces of one's own, half of the
+    /// largest step of leapfrog, and at most 0.2 T.
     Chosen,
-    /// All of this length, below the largest that is stable anywhere in the image: the motion in time. T.
+    /// All of this length, below the largest that is stable anywhere in the image: the motion in
+    /// time. T.
     Equal(f64),
 }
 

@@ -11,15 +11,16 @@ use crate::options::Step;
 use crate::session::Session;
 use crate::{Contour, Fit, FitError, FitForce, Image, OptionKey, Options, Problem};
 
-/// An image with all that a fit needs of it, for any number of curves. Cloning it costs nothing; it may be
-/// shared by threads, and so are the tiles of lazy fields.
+/// An image with all that a fit needs of it, for any number of curves. Cloning it costs nothing; it
+/// may be shared by threads, and so are the tiles of lazy fields.
 ///
 /// ```
 /// use fit::{Contour, Image, Options, Prepared};
 /// use glam::DVec2;
 ///
 /// let bright = |x: usize, y: usize| (x as f64 - 30.0).hypot(y as f64 - 30.0) < 15.0;
-/// let levels = field::Grid::from_shape_fn((61, 61), |(y, x)| if bright(x, y) { 200.0 } else { 50.0 });
+/// let level = |(y, x)| if bright(x, y) { 200.0 } else { 50.0 };
+/// let levels = field::Grid::from_shape_fn((61, 61), level);
 /// let prepared = Prepared::of(&Image::grey(levels), &Options::default())?;
 /// let starts = [17.0, 18.0, 19.0].map(|radius| Contour::circle(DVec2::new(31.0, 30.0), radius));
 /// for start in &starts {
@@ -52,8 +53,8 @@ impl Prepared {
     ///
     /// # Errors
     ///
-    /// By its key: an option out of its range, levels that are not finite, a force that asks for more time
-    /// or memory than there is.
+    /// By its key: an option out of its range, levels that are not finite, a force that asks for
+    /// more time or memory than there is.
     pub fn of(image: &Image, options: &Options) -> Result<Self, FitError> {
         options.check()?;
         let sight = Sight::of(image.clone(), options.computing, 0)
@@ -77,8 +78,8 @@ impl Prepared {
     ///
     /// # Errors
     ///
-    /// By its key: a start with too few points or outside the image, too many nodes, a force that only
-    /// a closed curve can have.
+    /// By its key: a start with too few points or outside the image, too many nodes, a force that
+    /// only a closed curve can have.
     pub fn fit(&self, start: &Contour) -> Result<Fit, FitError> {
         Ok(self.session(start)?.finish())
     }
@@ -151,9 +152,9 @@ impl Prepared {
 
     /// The steepest slope that the usual edge force can have anywhere.
     ///
-    /// The field is computed where the curve goes, and not as a whole for this: its slopes are bounded by the
-    /// image's range of levels, H. With gain g, the force of one dimension has the slope g (H/2) ∫|G‴| at
-    /// most, and ∫|G‴| = 2 (1 + 4 e^(−3/2)) / (√(2π) σ³) for a Gaussian G.
+    /// The field is computed where the curve goes, and not as a whole for this: its slopes are
+    /// bounded by the image's range of levels, H. With gain g, the force of one dimension has the
+    /// slope g (H/2) ∫|G‴| at most, and ∫|G‴| = 2 (1 + 4 e^(−3/2)) / (√(2π) σ³) for a Gaussian G.
     pub(crate) fn steepest(&self) -> f64 {
         let sigma = self.0.options.sigma;
         let total = 2.0 * (1.0 + 4.0 * (-1.5_f64).exp());

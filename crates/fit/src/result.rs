@@ -16,7 +16,8 @@ pub struct Fit {
     pub nodes: Vec<NodeEvidence>,
     /// What speaks for the outline as a whole; None unless it came to rest.
     pub quality: Option<Evidence>,
-    /// How the motion ended: a curve that does not come to rest, or blows up, is an outcome and no error.
+    /// How the motion ended: a curve that does not come to rest, or blows up, is an outcome and no
+    /// error.
     pub outcome: Outcome,
     /// Steps made.
     pub steps: u64,
@@ -39,13 +40,13 @@ impl Fit {
 pub struct NodeEvidence {
     /// Unit normal of the curve; of a closed one it points outwards.
     pub normal: DVec2,
-    /// Slope of the smoothed image along the normal, at the node: above 0 where it is brighter outside.
-    /// Levels per pixel.
+    /// Slope of the smoothed image along the normal, at the node: above 0 where it is brighter
+    /// outside. Levels per pixel.
     pub slope: f64,
     /// The size of that slope against the steepest of an edge as high as the image's contrast.
     pub strength: f64,
-    /// How far along the normal the forces of the image balance: where the edge is, to a fraction of a
-    /// pixel; None if nowhere near. Pixels.
+    /// How far along the normal the forces of the image balance: where the edge is, to a fraction
+    /// of a pixel; None if nowhere near. Pixels.
     pub offset: Option<f64>,
     /// Whether the image pulls the node back when it is moved along the normal.
     pub held: bool,

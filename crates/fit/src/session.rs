@@ -11,8 +11,8 @@ use crate::nodes::node_evidence;
 use crate::setup::{bordered, place, stepping, unfit, unmoved};
 use crate::{Choices, Contour, Evidence, Fit, FitError, Prepared};
 
-/// The least distance of the found sides of a bar that is wide enough, in σ: those of a thin line are 2 σ apart
-/// however thin it is, those of a bar of 2 σ are 2.3 σ.
+/// The least distance of the found sides of a bar that is wide enough, in σ: those of a thin line
+/// are 2 σ apart however thin it is, those of a bar of 2 σ are 2.3 σ.
 const RESOLVES: f64 = 2.5;
 
 /// A curve on its way to an outline, one step or many at a time.
@@ -22,7 +22,8 @@ const RESOLVES: f64 = 2.5;
 /// use glam::DVec2;
 ///
 /// let bright = |x: usize, y: usize| (x as f64 - 30.0).hypot(y as f64 - 30.0) < 15.0;
-/// let levels = field::Grid::from_shape_fn((61, 61), |(y, x)| if bright(x, y) { 200.0 } else { 50.0 });
+/// let level = |(y, x)| if bright(x, y) { 200.0 } else { 50.0 };
+/// let levels = field::Grid::from_shape_fn((61, 61), level);
 /// let prepared = Prepared::of(&Image::grey(levels), &Options::default())?;
 /// let mut session = prepared.session(&Contour::circle(DVec2::new(31.0, 30.0), 18.0))?;
 /// while session.step(5).is_none() {} // draw session.nodes() here
@@ -127,6 +128,10 @@ impl Session {
 
     /// Look for rest anew.
     pub(crate) fn begin_again(&mut self) {
+        // steps that suit the curve as it is now; equal ones that have become too long stay as asked for
+        if let Ok((stepping, _)) = stepping(&self.prepared, self.member().snake()) {
+            let _ = self.simulation.set_stepping(stepping);
+        }
         let until = until(self.prepared.options().steps);
         self.run = self.simulation.start(&until);
         self.outcome = None;

@@ -1,4 +1,5 @@
-//! From a start and options to a curve that can be moved: its nodes, the borders of its world, its steps.
+//! From a start and options to a curve that can be moved: its nodes, the borders of its world, its
+//! steps.
 
 use elastic::{ElasticError, Parameter};
 use glam::DVec2;
@@ -10,11 +11,13 @@ use crate::options::Step;
 use crate::result::StepReason;
 use crate::{Choices, Contour, FitError, OptionKey, Prepared, Problem};
 
-/// The first step of a fit that chooses its steps; it is cut at once where it moves a node too far. T.
+/// The first step of a fit that chooses its steps; it is cut at once where it moves a node too far.
+/// T.
 const FIRST_DT: f64 = 1.0;
 
-/// The longest way of a node in a step, in σ: over a quarter of σ the force of an edge is linear to a
-/// fourteenth of its largest value, ½ · 1.38 · (1/4)² of 0.61 (with f = s e^(−s²/2) and 1.38 its most curvature).
+/// The longest way of a node in a step, in σ: over a quarter of σ the force of an edge is linear to
+/// a fourteenth of its largest value, ½ · 1.38 · (1/4)² of 0.61 (with f = s e^(−s²/2) and 1.38 its
+/// most curvature).
 const REACH: f64 = 0.25;
 
 /// The longest step for chosen forces: no slope tells how far a step may go where a force jumps. T.
@@ -104,7 +107,8 @@ pub(crate) fn stepping(
         let why = StepReason::Grows { reach };
         return Ok((stepping, choices(Relaxation::NAME, FIRST_DT, why)));
     }
-    // the usual force is smooth; forces of regions jump, which a scheme that extrapolates them does not bear
+    // the usual force is smooth; forces of regions jump, which a scheme that extrapolates them does
+    // not bear
     let (scheme, limit) = if prepared.field().is_some() {
         let limit = Certificate::limit_for_slope(snake, Scheme::Sbdf2, prepared.steepest());
         (Scheme::Sbdf2, limit)

@@ -14,7 +14,8 @@ use snake::{
     Body, Certificate, Outcome, Rest, Sampling, Simulation, Snake, Stepping, Until, World,
 };
 
-/// What smooths an edge: the Gaussian, the pixel's own area and the masks of the two derivatives. Square pixels.
+/// What smooths an edge: the Gaussian, the pixel's own area and the masks of the two derivatives.
+/// Square pixels.
 fn width_of(sigma: f64) -> f64 {
     sigma * sigma + 1.0 / 12.0 + 2.0 / 3.0
 }
@@ -184,7 +185,8 @@ fn a_short_way_to_rest_ends_where_small_steps_end() {
         let slow = Contour::closed(explicit_rest(&prepared, session.start()));
         let short = session.finish();
         assert!(short.steps < steps, "{strength}, {sigma}: {}", short.steps);
-        // what is left of the way when a fit is called at rest: a ten-thousandth of its size is 0.004 pixels
+        // what is left of the way when a fit is called at rest: a ten-thousandth of its size is
+        // 0.004 pixels
         let off = apart(&short.contour, &slow);
         assert!(off < 0.01, "{strength}, {sigma}: {off}");
     }

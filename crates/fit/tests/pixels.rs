@@ -33,7 +33,8 @@ fn depths_of_one_picture_give_one_outline_lazily_and_whole() {
     ] {
         for options in [whole(), Options::default()] {
             let found = fit(&image, &start, &options).unwrap();
-            // a lazy field is within 1e-6 of gain times level: 1e-4 of the pull, which turns within 3 pixels
+            // a lazy field is within 1e-6 of gain times level: 1e-4 of the pull, which turns within
+            // 3 pixels
             let off = apart(&found.contour, &expected.contour);
             assert!(off < 1e-3, "{off}");
             assert!(found.is_outline());

@@ -101,7 +101,7 @@ fn edits_act_and_are_refused_by_their_key() {
         .edit(Edit::Pull {
             node: 0,
             to: CENTER + DVec2::new(30.0, 0.0),
-            stiffness: 20.0,
+            stiffness: 200.0,
         })
         .unwrap();
     assert!(session.step(1000).is_some());
@@ -128,6 +128,14 @@ fn edits_act_and_are_refused_by_their_key() {
                 stiffness: 1.0,
             },
             OptionKey::Nodes,
+        ),
+        (
+            Edit::Pull {
+                node: 0,
+                to: DVec2::NAN,
+                stiffness: 1.0,
+            },
+            OptionKey::Pull,
         ),
         (
             Edit::Material {

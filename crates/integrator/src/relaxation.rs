@@ -1,7 +1,8 @@
 //! To rest by the shortest way: the step grows as the forces die, and in the end it is Newton's.
 //!
-//! A scheme of equal steps takes as many of them as the slowest part of a curve takes time. Whoever wants
-//! the rest alone can let the step grow when little moves: this is pseudo-transient continuation.
+//! A scheme of equal steps takes as many of them as the slowest part of a curve takes time. Whoever
+//! wants the rest alone can let the step grow when little moves: this is pseudo-transient
+//! continuation.
 
 use glam::DVec2;
 
@@ -16,12 +17,12 @@ use crate::{Fault, SchemeError, State, Stepper, System};
 /// motion that nothing resists still has a solution. It bounds the step.
 const LEAST_SHARE: f64 = 1e-6;
 
-/// A step that ends where the forces, along it, are below minus this share of what they were at its start
-/// has gone too far.
+/// A step that ends where the forces, along it, are below minus this share of what they were at its
+/// start has gone too far.
 const OVERSHOT: f64 = 0.1;
 
-/// So many steps that have not gone too far must follow one that has before a step grows again: at a kink of the
-/// force, shorter steps have come to its place of balance by then.
+/// So many steps that have not gone too far must follow one that has before a step grows again: at
+/// a kink of the force, shorter steps have come to its place of balance by then.
 const PAUSE: u32 = 8;
 
 /// The factor by which a step grows when it may.
@@ -37,21 +38,22 @@ const TRIES: usize = 60;
 /// x⁺ = x + δ,   v⁺ = v + (δ/dt − v)/θ
 /// ```
 ///
-/// `G` is the symmetric part of ∂f/∂x, or where the matrix is then not positive definite, the part of it that
-/// pulls back, as in [`Scheme::LinearlyImplicit`](crate::Scheme). Short steps, up to 2 μ/γ, follow
-/// the motion to second order, inertia included (θ = ½): which of several places of rest is found is up to
-/// the motion. Longer ones are Euler's (θ = 1), and in the end Newton's step towards rest, which converges as
-/// fast. The step is chosen so that
+/// `G` is the symmetric part of ∂f/∂x, or where the matrix is then not positive definite, the part
+/// of it that pulls back, as in [`Scheme::LinearlyImplicit`](crate::Scheme). Short steps, up to 2
+/// μ/γ, follow the motion to second order, inertia included (θ = ½): which of several places of
+/// rest is found is up to the motion. Longer ones are Euler's (θ = 1), and in the end Newton's step
+/// towards rest, which converges as fast. The step is chosen so that
 ///
 /// - no node is moved farther than `reach`, within which the force may be taken for linear;
 /// - it doubles where the nodes move by less than half of that, and a long one is halved where the
-///   forces at its end point back: Σ F(x⁺)·δ < −0.1 Σ F(x)·δ; then it waits a while before it doubles again.
+///   forces at its end point back: Σ F(x⁺)·δ < −0.1 Σ F(x)·δ; then it waits a while before it
+///   doubles again.
 ///
-/// Time goes on by the chosen steps. A place of rest is one of the system, whatever `reach`, mass and damping; which one is
-/// found may depend on them. Without damping there is no rest. One force, its slope and one or more
-/// factors of a wide band a step: O(n p²).
+/// Time goes on by the chosen steps. A place of rest is one of the system, whatever `reach`, mass
+/// and damping; which one is found may depend on them. Without damping there is no rest. One force,
+/// its slope and one or more factors of a wide band a step: O(n p²).
 ///
-/// [kelley98]; for short steps [rosenbrock63] with one stage.
+/// \[kelley98\]; for short steps \[rosenbrock63\] with one stage.
 #[derive(Debug, Clone)]
 pub struct Relaxation {
     clock: Clock,
@@ -87,7 +89,8 @@ impl Relaxation {
     /// The word for it.
     pub const NAME: &'static str = "relaxation";
 
-    /// From `state`, with a first step of `dt` and no node moved by more than `reach` in a step. T, L.
+    /// From `state`, with a first step of `dt` and no node moved by more than `reach` in a step. T,
+    /// L.
     ///
     /// # Errors
     ///
@@ -142,7 +145,8 @@ impl Relaxation {
         self.moved
     }
 
-    /// The longest step that follows inertia, and the longest at which every node is still resisted.
+    /// The longest step that follows inertia, and the longest at which every node is still
+    /// resisted.
     fn bound(&mut self, system: &dyn System) {
         let stiff = system.stiffness().band().diagonal();
         let stiffest = stiff.iter().copied().fold(0.0, f64::max);

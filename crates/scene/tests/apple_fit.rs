@@ -14,7 +14,8 @@ use snake::{
     World,
 };
 
-/// Steps of the explicit run until a motion of a millionth of its size in a sixth of its time counts as rest.
+/// Steps of the explicit run until a motion of a millionth of its size in a sixth of its time
+/// counts as rest.
 const EXPLICIT_STEPS: u64 = 73_455;
 
 /// Where the curve rests when it is moved by leapfrog with half of its largest step.

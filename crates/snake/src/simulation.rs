@@ -146,10 +146,7 @@ impl Simulation {
         };
         simulation.meetings.count(rules.energies);
         rules.upkeep.validate()?;
-        let own = stepping.each || stepping.relax.is_some();
-        if own && (entries.len() > 1 || rules.contact.is_some()) {
-            return Err(SimulationError::Unshared);
-        }
+        simulation.check_alone(entries.len())?;
         if let Some(contact) = &rules.contact {
             contact.validate()?;
             let each = entries.iter().map(|Entry { snake, state, .. }| {
@@ -171,9 +168,17 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// One more snake that has not been checked yet, from now on.
-    fn admit(&mut self, entry: Entry) -> Result<(), SimulationError> {
-        let member = self.next_id;
+    /// Refuse steps that a snake chooses for itself, where there is more than one.
+    fn check_alone(&self, snakes: usize) -> Result<(), SimulationError> {
+        let own = self.stepping.each || self.stepping.relax.is_some();
+        if own && (snakes > 1 || self.contact.is_some()) {
+            return Err(SimulationError::Unshared);
+        }
+        Ok(())
+    }
+
+    /// Refuse steps beyond the limit of a snake.
+    fn check_step(&self, member: usize, snake: &Snake) -> Result<(), SimulationError> {
         let Stepping {
             scheme,
             dt,
@@ -182,14 +187,20 @@ impl Simulation {
             force,
             ..
         } = self.stepping;
-        // sub-steps stay below the limit by themselves, and what relaxes has none
-        let force = force || tolerance.is_some();
-        if relax.is_none() {
-            entry
-                .snake
-                .check_step(scheme, dt, force)
-                .map_err(|error| SimulationError::Scheme { member, error })?;
+        if relax.is_some() {
+            return Ok(()); // any step is stable
         }
+        // sub-steps stay below the limit by themselves
+        let force = force || tolerance.is_some();
+        let checked = snake.check_step(scheme, dt, force);
+        checked.map_err(|error| SimulationError::Scheme { member, error })
+    }
+
+    /// One more snake that has not been checked yet, from now on.
+    fn admit(&mut self, entry: Entry) -> Result<(), SimulationError> {
+        let member = self.next_id;
+        let tolerance = self.stepping.tolerance;
+        self.check_step(member, &entry.snake)?;
         if let Some((tips, every)) = &entry.tips {
             tips.validate(&entry.snake)?;
             if *every == 0 || tolerance.is_some() {

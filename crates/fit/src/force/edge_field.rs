@@ -7,15 +7,15 @@ use crate::{Image, Problem};
 
 /// How the corrected edge force of a picture is computed.
 ///
-/// Lazy fields differ from whole ones by at most `1e-6 · gain · L` in either component, with L the largest level, 255
-/// for pictures of 8 and 16 bits (tested); the same bytes each time.
+/// Lazy fields differ from whole ones by at most `1e-6 · gain · L` in either component, with L the
+/// largest level, 255 for pictures of 8 and 16 bits (tested); the same bytes each time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Computing {
     /// Lazily where that pays and will do: in a fit always, in a scene from 2048 × 2048 pixels on.
     #[default]
     Auto,
-    /// In tiles where the curve goes, in `f32`. Not for masked pictures, σ above some 18 pixels, or contrasts so low that
-    /// rounding would be felt.
+    /// In tiles where the curve goes, in `f32`. Not for masked pictures, σ above some 18 pixels, or
+    /// contrasts so low that rounding would be felt.
     Lazy,
     /// All of it, in doubles.
     Whole,
@@ -24,7 +24,8 @@ pub enum Computing {
 /// Rounding of a lazy field may take this share of the pull of an edge as high as the contrast.
 const FELT: f64 = 2e-3;
 
-/// Largest levels that are computed with in f32, whose numbers go from 1e-38 to 3e38 before they lose digits.
+/// Largest levels that are computed with in f32, whose numbers go from 1e-38 to 3e38 before they
+/// lose digits.
 const LEAST_LEVEL: f64 = 1e-12;
 const MOST_LEVEL: f64 = 1e12;
 
@@ -36,8 +37,8 @@ pub(crate) enum Part {
     Computing,
 }
 
-/// The edge force of an image whose levels spread over `contrast`; [`Computing::Auto`] makes all of it up
-/// to so many pixels.
+/// The edge force of an image whose levels spread over `contrast`; [`Computing::Auto`] makes all of
+/// it up to so many pixels.
 pub(super) fn edge_field(
     image: &Image,
     contrast: f64,

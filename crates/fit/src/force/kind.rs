@@ -98,8 +98,8 @@ pub struct Edge {
     pub sigma: f64,
     /// In pulls of an edge as high as the contrast.
     pub strength: f64,
-    /// Which edges attract, going outwards; None: those of [`Options::polarity`](crate::Options::polarity), or
-    /// either where there are no options.
+    /// Which edges attract, going outwards; None: those of
+    /// [`Options::polarity`](crate::Options::polarity), or either where there are no options.
     pub polarity: Option<Polarity>,
 }
 
@@ -149,8 +149,8 @@ impl Default for Scales {
     }
 }
 
-/// Edges at one scale after another: a force for each scale, coarse first; each is held, then fades over
-/// half that time while the next comes in.
+/// Edges at one scale after another: a force for each scale, coarse first; each is held, then fades
+/// over half that time while the next comes in.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CoarseToFine {
     /// 1 to 32 scales, falling. Pixels.
@@ -248,7 +248,8 @@ pub struct Gvf {
     pub sigma: f64,
     /// In pulls.
     pub strength: f64,
-    /// How steep an edge is that counts half, as a share of the steepest of one as high as the contrast.
+    /// How steep an edge is that counts half, as a share of the steepest of one as high as the
+    /// contrast.
     pub threshold: f64,
     /// The trade between smoothness and the edges.
     pub rule: FlowRule,
@@ -275,12 +276,14 @@ pub struct Vfc {
     pub sigma: f64,
     /// In pulls.
     pub strength: f64,
-    /// How steep an edge is that counts half, as a share of the steepest of one as high as the contrast.
+    /// How steep an edge is that counts half, as a share of the steepest of one as high as the
+    /// contrast.
     pub threshold: f64,
-    /// How the pull of an edge pixel falls with distance. With an exponent of 1 a ring pulls nothing inside
-    /// it, so it must be above that.
+    /// How the pull of an edge pixel falls with distance. With an exponent of 1 a ring pulls
+    /// nothing inside it, so it must be above that.
     pub falloff: Falloff,
-    /// Beyond this distance an edge pixel pulls nothing; None: as far as the image goes and memory allows. Pixels.
+    /// Beyond this distance an edge pixel pulls nothing; None: as far as the image goes and memory
+    /// allows. Pixels.
     pub reach: Option<f64>,
     /// Where the pull levels off, as a share of its largest.
     pub knee: f64,
@@ -292,8 +295,8 @@ impl Default for Vfc {
             sigma: 2.0,
             strength: 1.0,
             threshold: 0.25,
-            // the inverse square, which Li and Acton begin with: a whole straight edge then pulls by the
-            // inverse of its distance
+            // the inverse square, which Li and Acton begin with: a whole straight edge then pulls
+            // by the inverse of its distance
             falloff: Falloff::Power { exponent: 2.0 },
             reach: None,
             knee: 0.1,

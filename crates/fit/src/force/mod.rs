@@ -1,8 +1,9 @@
-//! The forces an image can exert on a curve, in units a person can set, and how they are made of it.
+//! The forces an image can exert on a curve, in units a person can set, and how they are made of
+//! it.
 //!
-//! Every kind has a `strength`. Strength 1 is the pull, at its strongest, of a straight edge of 120 grey
-//! levels under the report's rules; here it is that of an edge as high as the image's own contrast, so that
-//! exposure does not matter, and at any smoothing.
+//! Every kind has a `strength`. Strength 1 is the pull, at its strongest, of a straight edge of 120
+//! grey levels under the report's rules; here it is that of an edge as high as the image's own
+//! contrast, so that exposure does not matter, and at any smoothing.
 
 mod edge_field;
 mod kind;
@@ -25,8 +26,8 @@ pub use sight::Sight;
 
 use crate::Problem;
 
-/// Force of strength 1: a gain of 6 on 120 levels, smoothed with σ² = 10, at its strongest, one σ from the
-/// edge, where the normal density is 0.242. M L T⁻².
+/// Force of strength 1: a gain of 6 on 120 levels, smoothed with σ² = 10, at its strongest, one σ
+/// from the edge, where the normal density is 0.242. M L T⁻².
 pub const PULL: f64 = 6.0 * 120.0 / 10.0 * NORMAL_AT_1;
 
 /// e^(−½)/√(2π) and 1/√(2π): the normal density at one σ and at none.
@@ -38,7 +39,8 @@ pub(crate) const NORMAL_AT_0: f64 = 0.398_942_280_401_432_7;
 pub struct Made {
     /// The field.
     pub field: ForceField,
-    /// The energy of a point of the curve, per unit of its length, at pixel centers; None if there is none.
+    /// The energy of a point of the curve, per unit of its length, at pixel centers; None if there
+    /// is none.
     pub energy: Option<Grid>,
 }
 

@@ -9,7 +9,8 @@ use super::{
 use crate::Problem;
 use crate::limits::{MOST_CONVOLUTION, check_work};
 
-/// An edge goes on while it is this share of what it must be to begin: Canny has thresholds in a ratio of two or three to one.
+/// An edge goes on while it is this share of what it must be to begin: Canny has thresholds in a
+/// ratio of two or three to one.
 const LOW: f64 = 0.5;
 
 impl Sight {
@@ -55,9 +56,9 @@ impl Sight {
         Ok(share * NORMAL_AT_0 * self.contrast() / sigma)
     }
 
-    /// Edges from 0 to 1: `P² / (P² + T²)`, half at the threshold T, so that a weak edge is not outdone by a
-    /// strong one far off, and noise stays next to nothing. It is 1 − g, with g the edge-stopping function of geodesic
-    /// contours and of anisotropic diffusion.
+    /// Edges from 0 to 1: `P² / (P² + T²)`, half at the threshold T, so that a weak edge is not
+    /// outdone by a strong one far off, and noise stays next to nothing. It is 1 − g, with g the
+    /// edge-stopping function of geodesic contours and of anisotropic diffusion.
     ///
     /// \[caselles97\], \[perona90\]
     fn edge_map(&self, threshold: f64, sigma: f64) -> Result<Grid, ForceError> {
@@ -75,7 +76,8 @@ impl Sight {
     }
 
     pub(super) fn gvf(&self, given: &Gvf) -> Result<Made, ForceError> {
-        // three iterates of two numbers, their coefficients and the edges beside the stages of those
+        // three iterates of two numbers, their coefficients and the edges beside the stages of
+        // those
         check_work(self.image.size(), 165).map_err(all)?;
         let sigma = self.sigma(given.sigma)?;
         let rule = given.rule;
@@ -106,7 +108,8 @@ impl Sight {
             let side = |length: usize| 2.0_f64.powf((length as f64 + reach).log2().ceil());
             side(width) * side(height) > MOST_CONVOLUTION
         };
-        // unless it is asked for, as far as memory allows: long and narrow pictures would take that of a square
+        // unless it is asked for, as far as memory allows: long and narrow pictures would take that
+        // of a square
         while given.reach.is_none() && reach > 1.0 && too_large(reach) {
             reach *= 0.5;
         }
@@ -121,9 +124,11 @@ impl Sight {
         self.leveled(&field, given.strength, given.knee)
     }
 
-    /// A field whose pulls, weak or strong, become alike: `V / √(|V|² + (knee · largest)²)`, of length 1 at most.
+    /// A field whose pulls, weak or strong, become alike: `V / √(|V|² + (knee · largest)²)`, of
+    /// length 1 at most.
     ///
-    /// Flows fall off so fast that far from an edge nothing would move; which way they point is what counts there.
+    /// Flows fall off so fast that far from an edge nothing would move; which way they point is
+    /// what counts there.
     fn leveled(&self, field: &ForceField, strength: f64, knee: f64) -> Result<Made, ForceError> {
         let pull = pull(strength)?;
         let knee = above_zero(ForceKey::Knee, knee)?;

@@ -1,4 +1,5 @@
-//! An image as the kinds of force look at it: its levels, its contrast, and what has been made of it.
+//! An image as the kinds of force look at it: its levels, its contrast, and what has been made of
+//! it.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};

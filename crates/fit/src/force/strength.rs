@@ -97,7 +97,8 @@ impl Sight {
         self.climbing(&strength, gain)
     }
 
-    /// A force for each scale, coarse first; each is held, then fades over half that time while the next comes in.
+    /// A force for each scale, coarse first; each is held, then fades over half that time while the
+    /// next comes in.
     pub(super) fn coarse_to_fine(&self, scales: &CoarseToFine) -> Result<Vec<Acting>, ForceError> {
         let sigmas = &scales.sigmas;
         how_many(sigmas)?;
@@ -166,8 +167,8 @@ impl Sight {
     }
 }
 
-/// The gain at which an edge as high as `contrast` pulls with the strength asked for: its force is at its
-/// strongest `gain · contrast · φ(1)/σ²`.
+/// The gain at which an edge as high as `contrast` pulls with the strength asked for: its force is
+/// at its strongest `gain · contrast · φ(1)/σ²`.
 fn edge_gain(strength: f64, sigma: f64, contrast: f64) -> Result<f64, ForceError> {
     Ok(pull(strength)? * sigma * sigma / (NORMAL_AT_1 * contrast))
 }

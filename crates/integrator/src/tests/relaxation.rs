@@ -9,7 +9,7 @@ use crate::{Relaxation, SchemeError, State, Stepper, System};
 fn ring(damping: f64) -> (Springs, State) {
     let problem = problems::ring(24, 2.0, damping, [0.0, 20.0, 70.0]).unwrap();
     let (mut system, mut state) = (problem.system, problem.state);
-    system.gravity = DVec2::new(0.1, 1.0);
+    system.gravity = DVec2::new(0.02, 0.2);
     system.pull = 0.01;
     for (i, x) in state.x.iter_mut().enumerate() {
         *x += DVec2::new(3.0 * (i as f64).sin(), -2.0);
@@ -30,19 +30,20 @@ fn a_curve_far_from_rest_is_there_after_tens_of_steps_none_longer_than_its_reach
     // the slowest motion takes 2 γ/0.01 = 1000 of time to fall by e
     let (mut system, mut state) = ring(5.0);
     let mut stepper = Relaxation::new(&mut system, &state, 0.01, 4.0).unwrap();
-    for _ in 0..120 {
+    let mut steps = 0;
+    // 40 away at first: gravity 2 · 0.2 against 0.01
+    while largest_net(&mut system, &state) > 1e-9 {
         let before = state.x.clone();
         stepper.step(&mut system, &mut state).unwrap();
         let ways = before.iter().zip(&state.x).map(|(a, b)| a.distance(*b));
         let moved = ways.fold(0.0, f64::max);
         assert!(moved <= 4.0 * (1.0 + 1e-12), "{moved}");
         assert!((moved - stepper.moved()).abs() < 1e-9);
+        steps += 1;
+        assert!(steps < 60);
     }
-    // 200 away at first: gravity 2 · 1 against 0.01
-    let net = largest_net(&mut system, &state);
-    assert!(net < 1e-9, "{net}");
     assert!(stepper.dt() > 1e3, "{}", stepper.dt());
-    assert!(stepper.solves() >= 120);
+    assert!(stepper.solves() >= steps && state.t > 1e3);
 }
 
 #[test]
@@ -66,11 +67,11 @@ fn a_short_step_follows_the_motion_to_second_order() {
 fn a_changed_system_is_begun_again_with_the_first_step() {
     let (mut system, mut state) = ring(5.0);
     let mut stepper = Relaxation::new(&mut system, &state, 0.01, 4.0).unwrap();
-    for _ in 0..120 {
+    while largest_net(&mut system, &state) > 1e-9 {
         stepper.step(&mut system, &mut state).unwrap();
     }
     let long = stepper.dt();
-    system.gravity = DVec2::new(-1.0, 0.0);
+    system.gravity = DVec2::new(-0.2, 0.0);
     stepper.resume(&mut system, &state);
     stepper.step(&mut system, &mut state).unwrap();
     assert!(long > 1e3 && stepper.dt() <= 0.01);

@@ -3,7 +3,7 @@
 use elastic::Profile;
 use glam::DVec2;
 
-use super::{Entry, Simulation, SimulationError};
+use super::{Entry, Simulation, SimulationError, Stepping};
 use crate::{Acting, Body, Parameter, SnakeError, World};
 
 /// A change of one snake, made between two steps and felt from the next one on.
@@ -77,16 +77,41 @@ impl Simulation {
         Ok(())
     }
 
+    /// Go on by other steps, of another scheme or another length.
+    ///
+    /// # Errors
+    ///
+    /// As [`Simulation::new`]; then nothing has changed.
+    pub fn set_stepping(&mut self, stepping: Stepping) -> Result<(), SimulationError> {
+        let mut other = self.clone();
+        other.stepping = stepping;
+        other.begin = (self.t, self.step);
+        other.check_alone(other.members.len())?;
+        (other.parts, other.least_parts, other.cut) = (1, 1, None);
+        if let Some(contact) = other.contact {
+            other.cut(other.contact_limit(&contact))?;
+        }
+        for k in 0..other.members.len() {
+            let (id, mut snake) = (other.members[k].id, other.members[k].snake.clone());
+            other.check_step(id, &snake)?;
+            other.remember(k);
+            let begun = other.pace_of(k, &mut snake, &other.members[k].state);
+            let (pace, cuts) = begun.map_err(|error| error.of(id))?;
+            let member = &mut other.members[k];
+            (member.snake, member.pace, member.cuts) = (snake, pace, cuts);
+            member.resume()?;
+        }
+        *self = other;
+        Ok(())
+    }
+
     /// One more snake from now on; its number.
     ///
     /// # Errors
     ///
     /// As [`Simulation::new`]; then nothing has changed.
     pub fn add(&mut self, entry: Entry) -> Result<usize, SimulationError> {
-        let own = self.stepping.each || self.stepping.relax.is_some();
-        if own && !self.members.is_empty() {
-            return Err(SimulationError::Unshared);
-        }
+        self.check_alone(self.members.len() + 1)?;
         let id = self.next_id;
         self.admit(entry)?;
         self.meet(None)?;

@@ -1,4 +1,5 @@
-//! The kinds of force that a picture exerts: from the words of the text to the finder's plain values.
+//! The kinds of force that a picture exerts: from the words of the text to the finder's plain
+//! values.
 
 use field::{Falloff, FlowRule, Line as Shade, Polarity};
 use fit::force::{

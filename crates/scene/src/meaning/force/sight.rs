@@ -68,7 +68,8 @@ impl<'a> Sight<'a> {
         })
     }
 
-    /// The corrected edge force of the grey levels; refused by the keys of the smoothing and of the choice.
+    /// The corrected edge force of the grey levels; refused by the keys of the smoothing and of the
+    /// choice.
     pub(crate) fn edge_field(
         &self,
         rule: EdgeForce,
@@ -96,7 +97,8 @@ impl<'a> Sight<'a> {
         self.asked(key, kind, |kind| self.seen.region(kind))
     }
 
-    /// The field of a kind; None if the kind has no field: its force depends on the curve, or on no picture.
+    /// The field of a kind; None if the kind has no field: its force depends on the curve, or on no
+    /// picture.
     pub(crate) fn field(&self, key: &str, kind: &KindText) -> Result<Option<Made>, SceneError> {
         self.asked(key, kind, |kind| self.seen.field(kind))
     }
@@ -119,8 +121,8 @@ impl<'a> Sight<'a> {
     }
 }
 
-/// The forces that a kind exerts on a curve: one, or one a scale of a schedule; none of a kind that looks
-/// at no picture.
+/// The forces that a kind exerts on a curve: one, or one a scale of a schedule; none of a kind that
+/// looks at no picture.
 pub(super) fn forces(
     seen: &fit::force::Sight,
     key: &str,
