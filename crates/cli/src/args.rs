@@ -169,14 +169,16 @@ impl std::str::FromStr for Start {
 
     fn from_str(text: &str) -> Result<Self, String> {
         if let Some(numbers) = text.strip_prefix("circle:") {
-            let numbers @ [.., radius] = finite(numbers, "circle:X,Y,RADIUS")?;
+            let numbers: [f64; 3] = finite(numbers, "circle:X,Y,RADIUS")?;
+            let [_, _, radius] = numbers;
             if radius <= 0.0 {
                 return Err(format!("the radius must be above 0, got {radius}"));
             }
             return Ok(Self::Circle(numbers));
         }
         if let Some(numbers) = text.strip_prefix("box:") {
-            let numbers @ [.., width, height] = finite(numbers, "box:LEFT,TOP,WIDTH,HEIGHT")?;
+            let numbers: [f64; 4] = finite(numbers, "box:LEFT,TOP,WIDTH,HEIGHT")?;
+            let [_, _, width, height] = numbers;
             if width <= 0.0 || height <= 0.0 {
                 let message = format!("width and height must be above 0, got {width} and {height}");
                 return Err(message);

@@ -33,8 +33,7 @@ pub(crate) fn fit(args: &args::Fit, words: Words) -> Answer {
         }
         Start::Box([left, top, width, height]) => {
             let corner = DVec2::new(*left, *top);
-            let rectangle =
-                fit::Contour::rectangle(corner, corner + DVec2::new(*width, *height));
+            let rectangle = fit::Contour::rectangle(corner, corner + DVec2::new(*width, *height));
             (Shape::curve(rectangle.points, Some(true)), None)
         }
         Start::File(path) => {
@@ -48,14 +47,18 @@ pub(crate) fn fit(args: &args::Fit, words: Words) -> Answer {
         contour: Some(args.out.clone().unwrap_or_else(|| PathBuf::from("-"))),
         overlay: args.overlay.clone(),
     };
-    let inputs: Vec<PathBuf> = [Some(&args.image), file].into_iter().flatten().cloned().collect();
+    let inputs: Vec<PathBuf> = [Some(&args.image), file]
+        .into_iter()
+        .flatten()
+        .cloned()
+        .collect();
     output.check(Some(&picture), &inputs, words)?;
     let closed = match (args.open, args.closed) {
         (true, _) => false,
         (_, true) => true,
         _ => contour.closed.unwrap_or(true),
     };
-    let start = scene::fit::Contour {
+    let start = fit::Contour {
         points: contour.first().to_vec(),
         closed,
     };
@@ -69,7 +72,7 @@ pub(crate) fn fit(args: &args::Fit, words: Words) -> Answer {
     if let Some(note) = prepared.sight().note() {
         words.say(&format!("note: {note}"));
     }
-    let start = scene::fit::Contour {
+    let start = fit::Contour {
         points: session.start().to_vec(),
         closed,
     };
@@ -142,7 +145,7 @@ fn options(args: &args::Fit) -> Result<Options, SceneError> {
 }
 
 /// A contour as files have it.
-fn curve(contour: scene::fit::Contour) -> Shape {
+fn curve(contour: fit::Contour) -> Shape {
     Shape::curve(contour.points, Some(contour.closed))
 }
 

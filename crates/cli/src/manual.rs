@@ -21,16 +21,19 @@ pub(crate) fn page(args: &Man) -> Answer {
     let page = match &args.command {
         None => clap_mangen::Man::new(command),
         Some(name) => {
-            let known: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+            let known: Vec<&str> = command
+                .get_subcommands()
+                .map(clap::Command::get_name)
+                .collect();
             let known = known.join(", ");
             let found = command.find_subcommand(name).cloned();
-            let found = found.ok_or_else(|| key("man", format!("must be one of {known}, got {name}")))?;
+            let found =
+                found.ok_or_else(|| key("man", format!("must be one of {known}, got {name}")))?;
             clap_mangen::Man::new(found)
         }
     };
     let mut text = Vec::new();
-    page.render(&mut text)
-        .map_err(|error| key("man", error))?;
+    page.render(&mut text).map_err(|error| key("man", error))?;
     put(&String::from_utf8_lossy(&text))?;
     Ok(ExitCode::SUCCESS)
 }

@@ -101,9 +101,11 @@ impl Output {
     ) -> Result<(), SceneError> {
         let mut all = self.all().into_iter();
         if words.json
-            && let Some((flag, _)) = all.find(|(_, path)| path.is_some_and(|path| is_standard(path)))
+            && let Some((flag, _)) =
+                all.find(|(_, path)| path.is_some_and(|path| is_standard(path)))
         {
-            let message = format!("writes to standard output, and so does {flag}; give {flag} a file");
+            let message =
+                format!("writes to standard output, and so does {flag}; give {flag} a file");
             return Err(key("--json", message));
         }
         if let Some(path) = &self.overlay {

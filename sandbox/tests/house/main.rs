@@ -47,7 +47,7 @@ const DOORS: [(&str, &[&str]); 25] = [
     ("rustfft", &["banded"]),
     ("serde", &["io", "scene"]),
     ("serde_json", &["io", "cli", "scene: test", "sandbox: test"]), // what cargo metadata says
-    ("toml", &["scene", "sandbox: test"]),                   // this file reads manifests
+    ("toml", &["scene", "sandbox: test"]),                          // this file reads manifests
     ("image", &["io", "scene: test"]),
     ("tiff", &["io"]),
     ("strsim", &["scene"]),
