@@ -1,6 +1,10 @@
-//! What a run leaves behind: single numbers, tables, grids. Everything a claim or a drawing needs.
+//! What a run leaves behind: single numbers, tables, grids, runs. All that a claim or a drawing
+//! needs.
 
+use crate::course::Run;
+use crate::tolerance::EXACT;
 use crate::{SandboxError, Tolerance};
+use glam::DVec2;
 use ndarray::Array2;
 use std::cell::RefCell;
 use std::fmt::Write;
@@ -13,7 +17,7 @@ pub struct Number {
     /// How much.
     pub value: f64,
     /// Its unit; empty for a pure number.
-    pub unit: &'static str,
+    pub unit: String,
     /// How far it may move.
     pub tolerance: Tolerance,
 }
@@ -24,7 +28,7 @@ pub struct Column {
     /// What it is.
     pub name: String,
     /// Its unit; empty for pure numbers.
-    pub unit: &'static str,
+    pub unit: String,
     /// How far each value may move.
     pub tolerance: Tolerance,
     /// From top to bottom.
@@ -62,22 +66,43 @@ impl Table {
         }
     }
 
-    /// The same table with one more column at the right.
+    /// The same table with one more column at the right. Its unit stands in brackets behind its
+    /// name: `"way [px]"`.
     #[must_use]
     pub fn with(
         mut self,
         name: impl Into<String>,
-        unit: &'static str,
-        tolerance: Tolerance,
-        values: Vec<f64>,
+        tolerance: impl Into<Tolerance>,
+        values: impl IntoIterator<Item = f64>,
     ) -> Self {
+        let (name, unit) = name_and_unit(name.into());
         self.columns.push(Column {
-            name: name.into(),
+            name,
             unit,
-            tolerance,
-            values,
+            tolerance: tolerance.into(),
+            values: values.into_iter().collect(),
         });
         self
+    }
+
+    /// As [`Table::with`], without tolerance: for counts, and in tables that are not compared.
+    #[must_use]
+    pub fn exact(self, name: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
+        self.with(name, EXACT, values)
+    }
+
+    /// The same table with the columns x and y of points.
+    #[must_use]
+    pub fn xy(self, unit: &str, tolerance: impl Into<Tolerance> + Copy, points: &[DVec2]) -> Self {
+        self.with(format!("x [{unit}]"), tolerance, points.iter().map(|p| p.x))
+            .with(format!("y [{unit}]"), tolerance, points.iter().map(|p| p.y))
+    }
+
+    /// The same table with two columns of pairs.
+    #[must_use]
+    pub fn pairs(self, first: &str, second: &str, pairs: &[(f64, f64)]) -> Self {
+        self.exact(first, pairs.iter().map(|pair| pair.0))
+            .exact(second, pairs.iter().map(|pair| pair.1))
     }
 
     /// The table as CSV: a header with units in brackets, shortest digits that read back the same.
@@ -87,7 +112,7 @@ impl Table {
         let heads: Vec<String> = self
             .columns
             .iter()
-            .map(|column| match column.unit {
+            .map(|column| match column.unit.as_str() {
                 "" => column.name.clone(),
                 unit => format!("{} [{unit}]", column.name),
             })
@@ -114,6 +139,17 @@ impl Table {
             let _ = writeln!(out, "{}", cells.join(","));
         }
         out
+    }
+}
+
+/// A name, and the unit that stands in brackets behind it.
+fn name_and_unit(text: String) -> (String, String) {
+    let parts = text
+        .strip_suffix(']')
+        .and_then(|rest| rest.rsplit_once(" ["));
+    match parts {
+        Some((name, unit)) => (name.to_owned(), unit.to_owned()),
+        None => (text, String::new()),
     }
 }
 
@@ -154,6 +190,8 @@ pub struct Record {
     pub tables: Vec<Table>,
     /// Grids for drawing: pictures and fields.
     pub grids: Vec<(String, Array2<f64>)>,
+    /// Runs for drawing: curves and energies.
+    pub runs: Vec<(String, Run)>,
     /// What was asked of it since [`Record::read_by`] began to listen.
     reads: RefCell<Vec<Read>>,
 }
@@ -173,19 +211,14 @@ impl Record {
         (answer, reads)
     }
 
-    /// Notes a number.
-    pub fn note(
-        &mut self,
-        name: impl Into<String>,
-        value: f64,
-        unit: &'static str,
-        tolerance: Tolerance,
-    ) {
+    /// Notes a number. Its unit stands in brackets behind its name: `"way [px]"`.
+    pub fn note(&mut self, name: impl Into<String>, value: f64, tolerance: impl Into<Tolerance>) {
+        let (name, unit) = name_and_unit(name.into());
         self.numbers.push(Number {
-            name: name.into(),
+            name,
             value,
             unit,
-            tolerance,
+            tolerance: tolerance.into(),
         });
     }
 
@@ -197,6 +230,16 @@ impl Record {
     /// Keeps a grid.
     pub fn keep_grid(&mut self, name: impl Into<String>, grid: Array2<f64>) {
         self.grids.push((name.into(), grid));
+    }
+
+    /// Keeps points as a table that is not compared.
+    pub fn keep_points(&mut self, name: &'static str, points: &[DVec2]) {
+        self.keep(Table::raw(name).xy("px", EXACT, points));
+    }
+
+    /// Keeps a run.
+    pub fn keep_run(&mut self, name: impl Into<String>, run: impl Into<Run>) {
+        self.runs.push((name.into(), run.into()));
     }
 
     /// A number to judge by.
@@ -263,6 +306,27 @@ impl Record {
         Ok(x.iter().copied().zip(y.iter().copied()).collect())
     }
 
+    /// The columns x and y of a table as points.
+    ///
+    /// # Errors
+    ///
+    /// As [`Record::column`].
+    pub fn xy(&self, table: &str) -> Result<Vec<(f64, f64)>, SandboxError> {
+        self.points(table, "x", "y")
+    }
+
+    /// A run by its name.
+    ///
+    /// # Errors
+    ///
+    /// When it was not kept.
+    pub fn run(&self, name: &str) -> Result<&Run, SandboxError> {
+        let found = self.runs.iter().find(|(kept, _)| kept == name);
+        found
+            .map(|(_, run)| run)
+            .ok_or_else(|| missing("run", name))
+    }
+
     /// A grid by its name.
     ///
     /// # Errors
@@ -273,6 +337,17 @@ impl Record {
         found
             .map(|(_, grid)| grid)
             .ok_or_else(|| missing("grid", name))
+    }
+
+    /// All of it but the grids as files of an experiment: name and text.
+    #[must_use]
+    pub fn files(&self, id: &str) -> Vec<(String, String)> {
+        let numbers = (format!("{id}.csv"), self.numbers_csv());
+        let tables = self.tables.iter();
+        let tables = tables.map(|table| (format!("{id}.{}.csv", table.name), table.csv()));
+        let runs = self.runs.iter();
+        let runs = runs.map(|(name, run)| (format!("{id}.{name}.csv"), run.csv()));
+        std::iter::once(numbers).chain(tables).chain(runs).collect()
     }
 
     /// The single numbers as CSV with their tolerances.
@@ -310,19 +385,21 @@ mod tests {
 
     #[test]
     fn a_table_is_written_with_units_and_digits_that_read_back() {
-        let table = Table::new("t")
-            .with("x", "px", Tolerance::EXACT, vec![1.0, 2.0])
-            .with("f", "", Tolerance::ROUNDING, vec![0.1 + 0.2, 1e-300]);
+        let table = Table::new("t").exact("x [px]", vec![1.0, 2.0]).with(
+            "f",
+            1e-9,
+            vec![0.1 + 0.2, 1e-300],
+        );
         assert_eq!(table.csv(), "x [px],f\n1,0.30000000000000004\n2,1e-300\n");
     }
 
     #[test]
     fn what_a_judge_reads_is_known_and_nan_is_no_answer() {
         let mut record = Record::default();
-        record.note("a", 1.0, "", Tolerance::EXACT);
-        record.note("b", 2.0, "", Tolerance::EXACT);
-        record.note("lost", f64::NAN, "", Tolerance::EXACT);
-        record.keep(Table::new("t").with("x", "", Tolerance::EXACT, vec![3.0]));
+        record.note("a", 1.0, EXACT);
+        record.note("b", 2.0, EXACT);
+        record.note("lost", f64::NAN, EXACT);
+        record.keep(Table::new("t").exact("x", vec![3.0]));
         let (sum, reads) = record.read_by(|r| -> Result<f64, SandboxError> {
             Ok(r.number("a")? + r.number("a")? + r.column("t", "x")?[0] + r.told("b")?)
         });

@@ -1,5 +1,6 @@
 //! A ring on an edge, with the edge as a formula: smooth, so that orders can be seen.
 
+use crate::prelude::*;
 use glam::{DMat2, DVec2};
 use integrator::problems::Springs;
 use integrator::{Fault, System, Wrapped};

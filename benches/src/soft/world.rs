@@ -1,10 +1,10 @@
 //! A scene under one of the methods, moved by steps of its own.
 
+use crate::prelude::*;
 use super::model::Model;
 use super::{mass_spring, touch, xpbd};
 use crate::SandboxError;
 use crate::experiments::soft::course::crowd_of;
-use glam::DVec2;
 use scene::Scene;
 use snake::Crowd;
 
@@ -61,7 +61,7 @@ impl World {
         scene: &Scene,
         method: Method,
         share: f64,
-    ) -> Result<Self, SandboxError> {
+    ) -> Result<Self> {
         let mut scene = scene.clone();
         let usual = scene.plan.dt;
         let (how, dt) = match method {
@@ -94,9 +94,9 @@ impl World {
         steps * self.dt
     }
 
-    pub(super) fn step(&mut self, id: &'static str) -> Result<(), SandboxError> {
+    pub(super) fn step(&mut self, id: &'static str) -> Result<()> {
         match &mut self.how {
-            How::Snake(crowd) => crowd.step().map_err(SandboxError::refused(id))?,
+            How::Snake(crowd) => crowd.step()?,
             How::Springs(model) => mass_spring::step(model, self.dt),
             How::Positions(model, passes) => xpbd::step(model, self.dt, *passes),
         }
@@ -106,7 +106,7 @@ impl World {
 
     /// Steps until that time.
     #[cfg(test)]
-    pub(super) fn go(&mut self, id: &'static str, time: f64) -> Result<(), SandboxError> {
+    pub(super) fn go(&mut self, id: &'static str, time: f64) -> Result<()> {
         while self.t() < time - 0.5 * self.dt {
             self.step(id)?;
         }

@@ -1,7 +1,7 @@
 //! How the claims about schemes are judged.
 
+use crate::prelude::*;
 use super::trials::schemes;
-use crate::{Finding, Record, SandboxError};
 
 /// Whether one scheme asks for fewer forces than another; one that never got there has lost.
 pub(super) fn fewer(
@@ -9,7 +9,7 @@ pub(super) fn fewer(
     winner: &str,
     loser: &str,
     target: &str,
-) -> Result<Finding, SandboxError> {
+) -> Result<Finding> {
     let forces = |name: &str| record.number(&format!("{name}: forces to {target}"));
     let (own, other) = (forces(winner)?, forces(loser)?);
     Ok(Finding::new(
@@ -23,7 +23,7 @@ pub(super) fn fewest_of_all(
     record: &Record,
     winner: &str,
     target: &str,
-) -> Result<Finding, SandboxError> {
+) -> Result<Finding> {
     let forces = |name: &str| record.number(&format!("{name}: forces to {target}"));
     let own = forces(winner)?;
     let mut next = ("none", f64::INFINITY);
@@ -48,7 +48,7 @@ pub(super) fn fewer_steps(
     winner: &str,
     losers: &[&str],
     target: &str,
-) -> Result<Finding, SandboxError> {
+) -> Result<Finding> {
     let steps = |name: &str| record.number(&format!("{name}: steps to {target}"));
     let own = steps(winner)?;
     let (mut holds, mut found) = (own.is_finite(), format!("{} steps", words(own)));
@@ -69,7 +69,7 @@ fn words(count: f64) -> String {
 }
 
 /// Whether some scheme reaches 1e-3 in at most so small a share of the report's steps at its limit.
-pub(super) fn share_of_report(record: &Record, share: f64) -> Result<Finding, SandboxError> {
+pub(super) fn share_of_report(record: &Record, share: f64) -> Result<Finding> {
     let report = record.number("report: steps at its largest stable step")?;
     let mut best = ("none", f64::INFINITY);
     for scheme in schemes().filter(|scheme| scheme.parameter().is_none() || scheme.order() == 2) {

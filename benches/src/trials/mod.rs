@@ -4,6 +4,8 @@
 //! runs it, and docs/integrators.md has the tables of one run. `figures --check` judges the same
 //! claims on a short form, in which forces are counted and nothing is timed.
 
+use crate::prelude::*;
+
 mod chart;
 mod drift;
 mod edge;

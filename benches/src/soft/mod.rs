@@ -8,11 +8,8 @@ mod touch;
 mod world;
 mod xpbd;
 
+use crate::prelude::*;
 use super::course::{keep_shots, picture, shots, wall};
-use crate::draw::{Axis, Color, Figure, Line, Panel};
-use crate::experiments::motion::changed_scene;
-use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
-use glam::DVec2;
 use scene::Scene;
 use world::{Method, World};
 
@@ -103,10 +100,7 @@ pub(crate) const PEERS: Experiment = Experiment {
     question: "Masses with springs and hinges, and extended position-based dynamics, each written fairly and given its own \
                best step: what do they make of the same five scenes?",
     claims: &[
-        Claim {
-            says: "all keep momentum without walls",
-            source: "pushes are taken back where they are given",
-            judge: |r| {
+        claim("all keep momentum without walls [pushes are taken back where they are given]").judged(|r| {
                 let mut off = 0.0_f64;
                 for method in Method::ALL {
                     off = off.max(r.number(&format!("flung, {}: momentum off", method.name()))?);
@@ -115,12 +109,8 @@ pub(crate) const PEERS: Experiment = Experiment {
                     off < 1e-9,
                     format!("off by at most {off:.0e} of Σ|p|"),
                 ))
-            },
-        },
-        Claim {
-            says: "of energy the snake keeps all, positions lose the more the longer their steps",
-            source: "the leapfrog is symplectic; a prediction put right is backward Euler",
-            judge: |r| {
+            }),
+        claim("of energy the snake keeps all, positions lose the more the longer their steps [the leapfrog is symplectic; a prediction put right is backward Euler]").judged(|r| {
                 let mut left = Vec::new();
                 for method in Method::ALL {
                     let name = method.name();
@@ -147,12 +137,8 @@ pub(crate) const PEERS: Experiment = Experiment {
                     kept && (0..2).all(|of| left[3][of] < left[2][of]) && left[2][0] < 0.9,
                     format!("left of the rope's and of the balls': {}", words.join(", ")),
                 ))
-            },
-        },
-        Claim {
-            says: "what the snake ends with depends least on nodes and step",
-            source: "parameters are densities along the curve",
-            judge: |r| {
+            }),
+        claim("what the snake ends with depends least on nodes and step [parameters are densities along the curve]").judged(|r| {
                 let mut worst = Vec::new();
                 for method in Method::ALL {
                     worst.push((most_change(r, method)?, method.name()));
@@ -167,15 +153,14 @@ pub(crate) const PEERS: Experiment = Experiment {
                     worst[0].0 < 0.05 && worst[0].0 < least,
                     format!("the most that any result changes: {}", words.join(", ")),
                 ))
-            },
-        },
+            }),
     ],
     run,
     draw,
 };
 
 /// The largest change of a result by other nodes or half the step; more than everything where it blew up.
-fn most_change(record: &Record, method: Method) -> Result<f64, SandboxError> {
+fn most_change(record: &Record, method: Method) -> Result<f64> {
     let mut most = 0.0_f64;
     for case in &CASES {
         let name = format!("{}, {}", case.scene, method.name());
@@ -211,8 +196,8 @@ fn read(
     method: Method,
     nodes: usize,
     share: f64,
-) -> Result<(f64, Reading), SandboxError> {
-    let scene = changed_scene(ID, case.scene, &[(case.nodes[0], case.nodes[nodes])])?;
+) -> Result<(f64, Reading)> {
+    let scene = scene_with(case.scene, &[(case.nodes[0], case.nodes[nodes])])?;
     // the snake's own limit goes with the square of the spacing
     let count = |k: usize| -> f64 {
         let number = case.nodes[k].rsplit(' ').next().unwrap_or("1");
@@ -258,29 +243,19 @@ fn read(
     ))
 }
 
-fn cases(record: &mut Record) -> Result<(), SandboxError> {
-    let like = Tolerance::Relative(0.05);
+fn cases(record: &mut Record) -> Result<()> {
+    let like = share(0.05);
     for case in &CASES {
         let mut kept = Vec::new();
         for (k, method) in Method::ALL.into_iter().enumerate() {
             let name = format!("{}, {}", case.scene, method.name());
             let (dt, own) = read(case, method, 0, 1.0)?;
-            record.note(format!("{name}: step"), dt, "s", Tolerance::Relative(1e-9));
-            record.note(
-                format!("{name}: {}", case.result),
-                own.result,
-                case.unit,
-                like,
-            );
-            record.note(
-                format!("{name}: deepest overlap"),
-                own.deepest,
-                "px",
-                Tolerance::Relative(0.1),
-            );
+            record.note(format!("{name}: step [s]"), dt, share(1e-9));
+            record.note(format!("{name}: {} [{case.unit}]", case.result), own.result, like);
+            record.note(format!("{name}: deepest overlap [px]"), own.deepest, share(0.1));
             for ((nodes, share), what) in [(1, 1.0), (2, 1.0), (0, 0.5)].into_iter().zip(OTHERS) {
                 let (_, other) = read(case, method, nodes, share)?;
-                record.note(format!("{name}: {what}"), other.result, case.unit, like);
+                record.note(format!("{name}: {what} [{case.unit}]"), other.result, like);
             }
             for (curve, closed, x) in own.shot {
                 kept.push((real(k), curve, closed, x));
@@ -292,9 +267,9 @@ fn cases(record: &mut Record) -> Result<(), SandboxError> {
 }
 
 /// The rope without damping and gravity: its energy, and where its free end is.
-fn swing(record: &mut Record) -> Result<(), SandboxError> {
+fn swing(record: &mut Record) -> Result<()> {
     let still = [("damping = 0.15", "damping = 0.0"), ("-2.0]", "0.0]")];
-    let scene = changed_scene(ID, "rope", &still)?;
+    let scene = scene_with("rope", &still)?;
     for (method, table) in Method::ALL
         .into_iter()
         .zip(["swing-0", "swing-1", "swing-2", "swing-3"])
@@ -319,34 +294,29 @@ fn swing(record: &mut Record) -> Result<(), SandboxError> {
         let name = method.name();
         let last = crossings.len() - 1;
         let period = 2.0 * (crossings[last] - crossings[0]) / real(last);
-        let like = Tolerance::Relative(0.01);
-        record.note(format!("rope, {name}: period"), period, "s", like);
+        let like = share(0.01);
+        record.note(format!("rope, {name}: period [s]"), period, like);
         let kept = left.last().copied().unwrap_or(f64::NAN);
-        record.note(
-            format!("rope, {name}: energy left after ten periods"),
-            kept,
-            "of it",
-            like,
-        );
+        record.note(format!("rope, {name}: energy left after ten periods [of it]"), kept, like);
         record.keep(
             Table::raw(table)
-                .with("t", "s", Tolerance::EXACT, t)
-                .with("energy", "", Tolerance::EXACT, left)
-                .with("x", "px", Tolerance::EXACT, tail),
+                .exact("t [s]", t)
+                .exact("energy", left)
+                .exact("x [px]", tail),
         );
     }
     Ok(())
 }
 
 /// The pile's balls flung at each other in empty space, without loss of any kind asked for.
-fn flung(record: &mut Record) -> Result<(), SandboxError> {
+fn flung(record: &mut Record) -> Result<()> {
     let changes = [
         ("damping = 0.6", "damping = 0.0"),
         ("-4.0]", "0.0]"),
         ("damping = 8.0", "damping = 0.0"),
         ("friction = 0.4", "friction = 0.0"),
     ];
-    let mut scene = changed_scene(ID, "pile", &changes)?;
+    let mut scene = scene_with("pile", &changes)?;
     let bare = |snake: &mut snake::Snake| snake.set_world(snake::World::default());
     let aim = |x: &[DVec2]| {
         0.6 * (DVec2::new(10.0, 12.0) - elastic::center(x, None)) + DVec2::new(0.5, 0.2)
@@ -362,7 +332,7 @@ fn flung(record: &mut Record) -> Result<(), SandboxError> {
         }
         Ok(())
     };
-    fling(&mut scene).map_err(SandboxError::refused(ID))?;
+    fling(&mut scene)?;
     for (method, table) in Method::ALL
         .into_iter()
         .zip(["flung-0", "flung-1", "flung-2", "flung-3"])
@@ -382,30 +352,15 @@ fn flung(record: &mut Record) -> Result<(), SandboxError> {
             }
         }
         let name = method.name();
-        record.note(
-            format!("flung, {name}: momentum off"),
-            off,
-            "of it",
-            Tolerance::Absolute(1e-9),
-        );
+        record.note(format!("flung, {name}: momentum off [of it]"), off, 1e-9);
         let kept = left.last().copied().unwrap_or(f64::NAN);
-        record.note(
-            format!("flung, {name}: energy left"),
-            kept,
-            "of it",
-            Tolerance::Relative(0.05),
-        );
-        record.keep(Table::raw(table).with("t", "s", Tolerance::EXACT, t).with(
-            "energy",
-            "",
-            Tolerance::EXACT,
-            left,
-        ));
+        record.note(format!("flung, {name}: energy left [of it]"), kept, share(0.05));
+        record.keep(Table::raw(table).exact("t [s]", t).exact("energy", left));
     }
     Ok(())
 }
 
-fn run() -> Result<Record, SandboxError> {
+fn run() -> Result {
     let mut record = Record::default();
     swing(&mut record)?;
     flung(&mut record)?;
@@ -416,7 +371,7 @@ fn run() -> Result<Record, SandboxError> {
 /// The methods' colors.
 const COLORS: [Color; 4] = [Color::BLUE, Color::ORANGE, Color::GREEN, Color::PURPLE];
 
-fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
+fn draw(record: &Record) -> Drawn {
     let mut figure = Figure::new("Soft bodies by three methods", 1000.0);
     for (table, window, height) in [
         ("pile", [-0.6, -0.6, 20.6, 14.0], 190.0),
@@ -433,23 +388,11 @@ fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
         }
         figure = figure.with(height, row);
     }
-    let mut swing = Panel::new(
-        "the free end of the undamped rope",
-        Axis::new("t / s", 40.0, 80.0),
-        Axis::new("x / px", -12.0, 25.0),
-    );
-    let mut energy = Panel::new(
-        "its energy",
-        Axis::new("t / s", 0.0, 80.0),
-        Axis::new("share", 0.0, 2.0),
-    );
-    let mut thrown = Panel::new(
-        "energy of twenty balls flung at each other",
-        Axis::new("t / s", 0.0, 6.0),
-        Axis::new("share", 0.0, 2.0),
-    );
+    let mut swing = plot("the free end of the undamped rope", ("t / s", 40.0, 80.0), ("x / px", -12.0, 25.0));
+    let mut energy = plot("its energy", ("t / s", 0.0, 80.0), ("share", 0.0, 2.0));
+    let mut thrown = plot("energy of twenty balls flung at each other", ("t / s", 0.0, 6.0), ("share", 0.0, 2.0));
     for (k, method) in Method::ALL.into_iter().enumerate() {
-        let line = |points| Line::new(points, COLORS[k]).named(method.name());
+        let line = |points| line(points, COLORS[k]).named(method.name());
         let (a, b) = (format!("swing-{k}"), format!("flung-{k}"));
         let mut tail = record.points(&a, "t", "x")?;
         tail.retain(|p| p.0 >= 40.0);
@@ -458,8 +401,6 @@ fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
         thrown = thrown.with(line(record.points(&b, "t", "energy")?));
     }
     figure = figure.with(270.0, vec![swing, energy, thrown]);
-    Ok(vec![Artefact::figure(
-        "Three of the scenes at their end under each method, and what becomes of energy where nothing should take any.",
-        figure,
-    )])
+    Artefact::only("Three of the scenes at their end under each method, and what becomes of energy where nothing should take any.",
+        figure,)
 }

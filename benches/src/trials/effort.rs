@@ -1,7 +1,7 @@
 //! What a scheme needs for how much error: forces counted, time taken, distance from the truth.
 
+use crate::prelude::*;
 use super::trial::{Care, Trial};
-use glam::DVec2;
 use integrator::{Fault, Scheme, Start, System, Wrapped};
 use std::time::Instant;
 

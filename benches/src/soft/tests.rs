@@ -1,7 +1,6 @@
+use crate::prelude::*;
 use super::model::turning;
 use super::world::{Method, World};
-use crate::experiments::motion::changed_scene;
-use glam::DVec2;
 
 #[test]
 fn the_slopes_of_a_hinge_are_those_of_its_angle() {
