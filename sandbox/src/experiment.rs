@@ -80,12 +80,18 @@ impl Claim {
         self.parts().1
     }
 
+    /// The words, and what stands in the last brackets behind them, which may have some inside.
     fn parts(&self) -> (&'static str, &'static str) {
         let text = self.words.0;
-        let parts = text
-            .strip_suffix(']')
-            .and_then(|rest| rest.rsplit_once(" ["));
-        parts.unwrap_or((text, ""))
+        let mut depth = 0;
+        let open = text.char_indices().rev().find(|(_, c)| {
+            depth += i32::from(*c == ']') - i32::from(*c == '[');
+            *c == '[' && depth == 0
+        });
+        match (open, text.strip_suffix(']')) {
+            (Some((at, _)), Some(inside)) => (text[..at].trim_end(), &inside[at + 1..]),
+            _ => (text, ""),
+        }
     }
 
     /// Reads the record and judges.
@@ -181,4 +187,26 @@ pub struct Experiment {
     pub run: fn() -> Result,
     /// Draws; computes nothing.
     pub draw: fn(&Record) -> Drawn,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_claim_is_its_words_and_its_source() {
+        for (text, says, source) in [
+            ("it holds [report §2.3]", "it holds", "report §2.3"),
+            ("it holds [[a], [b]]", "it holds", "[a], [b]"),
+            (
+                "it holds in [0, 1] [theory]",
+                "it holds in [0, 1]",
+                "theory",
+            ),
+            ("it holds", "it holds", ""),
+        ] {
+            let claim = claim(text).when(&[]);
+            assert_eq!((claim.says(), claim.source()), (says, source));
+        }
+    }
 }

@@ -343,10 +343,11 @@ impl Record {
     #[must_use]
     pub fn files(&self, id: &str) -> Vec<(String, String)> {
         let numbers = (format!("{id}.csv"), self.numbers_csv());
+        let slug = |name: &str| name.replace(|c: char| !c.is_ascii_alphanumeric() && c != '-', "-");
         let tables = self.tables.iter();
-        let tables = tables.map(|table| (format!("{id}.{}.csv", table.name), table.csv()));
+        let tables = tables.map(|table| (format!("{id}.{}.csv", slug(table.name)), table.csv()));
         let runs = self.runs.iter();
-        let runs = runs.map(|(name, run)| (format!("{id}.{name}.csv"), run.csv()));
+        let runs = runs.map(|(name, run)| (format!("{id}.{}.csv", slug(name)), run.csv()));
         std::iter::once(numbers).chain(tables).chain(runs).collect()
     }
 

@@ -173,7 +173,7 @@ fn draw(record: &Record) -> Drawn {
             .bare()
             .with(Picture::new(ground));
         let end = run.len() - 1;
-        for k in (0..=end).step_by(3).chain([end]) {
+        for k in (0..end).step_by(3).chain([end]) {
             panel = panel.with(line(run.pairs(k), Color::RED).weighing(0.35));
         }
         strips.push(

@@ -3,21 +3,24 @@
 use super::synthetic::fit;
 use crate::prelude::*;
 use elastic::{Material, Topology};
-use field::{Grid, REPORT_GAIN, REPORT_PASSES, REPORT_SCALE, report_force};
+use field::{Grid, REPORT_GAIN, REPORT_PASSES, REPORT_SCALE, RegionScratch, report_force};
 use integrator::{Fault, Scheme, State};
 use outline::Between;
-use snake::{Acting, Body, Curve as Nodes, Force, ImageForce, Sampling, Snake, Until, World};
+use snake::{
+    Acting, Body, Curve as Nodes, Force, ImageForce, RegionForce, Sampling, Snake, Until, World,
+};
 use std::any::Any;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// A force this strong is at half its strength; one of strength 1 pulls up to 17 at an edge.
-const FLOOR: f64 = 0.17;
+/// The pull of a force of strength 1 at an edge.
+const PULL: f64 = 17.4;
 /// Steps between two times that nodes are evened out.
 const ROUND: u32 = 25;
 
-/// A force whose strength is about 1 from near to far: `F / (|F| + floor)`, so that only its
-/// direction counts where it is not nearly zero.
+/// A force whose strength is about 1 from near to far: `F / (|F| + PULL / 100)`, so that only its
+/// direction counts where it is not nearly zero. Regions push by all of their strength up to the
+/// border itself and would swing about it: half of it, along the normal of the curve as it is.
 #[derive(Debug, Clone)]
 struct Evened(Acting);
 
@@ -27,10 +30,20 @@ impl Force for Evened {
     }
 
     fn add(&mut self, curve: &Nodes<'_>, force: &mut [DVec2]) -> Result<(), Fault> {
+        if let Some(regions) = self.0.downcast::<RegionForce>() {
+            let mut push = vec![0.0; force.len()];
+            let scratch = &mut RegionScratch::default();
+            regions.region().push_into(curve.x, scratch, &mut push);
+            let normals = elastic::normals(curve.x, true);
+            for ((force, normal), push) in force.iter_mut().zip(normals).zip(push) {
+                *force += normal * (0.5 * push / PULL);
+            }
+            return Ok(());
+        }
         let mut own = vec![DVec2::ZERO; force.len()];
         self.0.add(curve, &mut own)?;
         for (force, own) in force.iter_mut().zip(own) {
-            *force += own / (own.length() + FLOOR);
+            *force += own / (own.length() + 0.01 * PULL);
         }
         Ok(())
     }
@@ -55,9 +68,12 @@ pub(super) fn stages(kind: &str, image: &Grid) -> Result<Vec<World>> {
         ))]);
     }
     let circle = elastic::circle(DVec2::splat(128.0), 60.0, 60);
-    let scene = fit(image, &circle, kind)?;
-    let forces = scene.snake.world().forces.iter();
-    Ok(forces.map(|acting| world(acting.force())).collect())
+    let shipped = fit(image, &circle, kind)?.snake.world().clone();
+    let stages = shipped.forces.iter().map(|acting| World {
+        walls: shipped.walls.clone(),
+        ..world(acting.force())
+    });
+    Ok(stages.collect())
 }
 
 /// Where a circle ends, and whether it rests there.
