@@ -4,7 +4,7 @@
 //! one number; for all whose names fit, where it has a star: `"*: largest step"`; or for a column,
 //! `"area @ balls"` in the table of that name. Of many, each must meet the demand.
 
-use crate::record::shortest;
+use crate::table::shortest;
 use crate::{Finding, Record, SandboxError};
 
 type Name = &'static str;

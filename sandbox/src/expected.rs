@@ -4,7 +4,8 @@
 //! compared, `ID.tolerances.csv` the tolerances of the columns of these tables. A tolerance of the
 //! program that is not the one in the file is a move: nobody widens it unseen.
 
-use crate::record::{quoted, shortest};
+use crate::record::quoted;
+use crate::table::shortest;
 use crate::{Column, Experiment, Folder, Record, SandboxError, Table, Tolerance};
 use std::path::{Path, PathBuf};
 

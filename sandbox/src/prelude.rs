@@ -1,8 +1,8 @@
 //! What an experiment is written with.
 
+pub use crate::course::{Group, group, scene_with};
 pub(crate) use crate::course::{
-    Curve, Frame, Group, Run, change, frame, gap_of, group, group_of, last, moved, pair, pairs,
-    ran, real_steps, scene_with, steps_in, stray, to_the_end, watch, watched,
+    frame, group_of, last, moved, ran, real_steps, steps_in, to_the_end, watch, watched,
 };
 pub use crate::demand::{
     Demand, above, at_least, at_most, below, close, falling, less, like, more, near, never, ratio,
@@ -16,7 +16,10 @@ pub use crate::draw::{
 pub use crate::error::{Result, refused};
 pub use crate::experiment::{Drawn, claim};
 pub use crate::numbers::{flag, least, mean, most, range};
-pub(crate) use crate::shown::{account, energies, over_time, picture, snapshots, wall};
+pub use crate::run::{Curve, Frame, Run};
+pub(crate) use crate::run::{change, gap_of, pair, pairs, stray};
+pub(crate) use crate::shown::{account, energies, over_time, snapshots};
+pub use crate::shown::{picture, wall};
 pub use crate::tolerance::{EXACT, ROUNDING, share};
 pub use crate::{Artefact, Claim, Experiment, Finding, Record, Table, Tolerance, real};
 pub use glam::DVec2;

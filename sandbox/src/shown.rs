@@ -76,7 +76,7 @@ pub(crate) fn account(
 }
 
 /// Curves of one moment in a panel without axes, the inside of closed ones filled.
-pub(crate) fn picture(
+pub fn picture(
     title: impl Into<String>,
     curves: &[Curve],
     [x0, y0, x1, y1]: [f64; 4],
@@ -94,7 +94,7 @@ pub(crate) fn picture(
 }
 
 /// A wall from one point to another.
-pub(crate) fn wall(from: impl Into<(f64, f64)>, to: impl Into<(f64, f64)>) -> Line {
+pub fn wall(from: impl Into<(f64, f64)>, to: impl Into<(f64, f64)>) -> Line {
     line([from.into(), to.into()], Color::INK).weighing(1.4)
 }
 

@@ -1,6 +1,6 @@
 //! How far a number may move.
 
-use crate::record::shortest;
+use crate::table::shortest;
 
 /// How far a number may stray from the expected one before `figures --check` says it moved.
 #[derive(Debug, Clone, Copy, PartialEq)]

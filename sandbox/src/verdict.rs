@@ -149,7 +149,7 @@ fn apply(by: Move, read: &Read, record: &Record, moved: &mut Record, row: Option
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::demand::{Demand, above, below, falling, less};
+    use crate::demand::{above, below, falling, less};
     use crate::{Finding, Table, claim};
 
     fn record() -> Record {
@@ -164,18 +164,24 @@ mod tests {
         idle(&claim("it is so [a test]").judged(judge), &record()).unwrap()
     }
 
-    fn demanded(demands: &'static [Demand]) -> Vec<String> {
-        idle(&claim("it is so [a test]").when(demands), &record()).unwrap()
-    }
-
     #[test]
     fn demands_are_found_out_as_code_is() {
-        assert!(demanded(&[below("a", 3.0), less("a", 1.0, "b")]).is_empty());
-        assert!(demanded(&[above("x @ t", 0.5)]).is_empty());
-        assert!(demanded(&[falling("x @ t")]).is_empty());
-        assert_eq!(demanded(&[below("a", 1e9)]).len(), 1);
-        assert_eq!(demanded(&[below("a", 3.0), below("b", 1e9)]).len(), 1);
-        assert_eq!(demanded(&[]).len(), 1);
+        const SOUND: Claim = claim("it is so").when(&[
+            below("a", 3.0),
+            less("a", 1.0, "b"),
+            above("x @ t", 0.5),
+            falling("x @ t"),
+        ]);
+        const FREE: Claim = claim("it is so").when(&[below("a", 1e9)]);
+        const HALF: Claim = claim("it is so").when(&[below("a", 3.0), below("b", 1e9)]);
+        const EMPTY: Claim = claim("it is so").when(&[]);
+        let record = record();
+        assert!(!SOUND.judge(&record).unwrap().holds); // the rows do not fall
+        for (claim, faults) in [(FREE, 1), (HALF, 1), (EMPTY, 1)] {
+            assert_eq!(idle(&claim, &record).unwrap().len(), faults);
+        }
+        const HOLDS: Claim = claim("it is so").when(&[below("a", 3.0), above("x @ t", 0.5)]);
+        assert!(idle(&HOLDS, &record).unwrap().is_empty());
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Masses and springs, symplectic Euler: what a first course in simulation builds.
 
-use crate::prelude::*;
 use super::model::{Model, turning};
 use super::touch::touches;
+use sandbox::prelude::*;
 
 /// One step: all forces, then velocities, then places.
 pub(super) fn step(model: &mut Model, dt: f64) {

@@ -1,6 +1,6 @@
 //! What mass-spring and position-based methods make of a scene: particles, springs, hinges, gas, walls.
 
-use crate::prelude::*;
+use sandbox::prelude::*;
 use scene::Scene;
 use snake::{Contact, Gravity, Plastic, Pressure, WallLaw};
 use std::ops::Range;

@@ -1,8 +1,8 @@
 //! Extended position-based dynamics, [macklin16]: places are predicted, then constraints with a compliance put them right.
 
-use crate::prelude::*;
 use super::model::{Model, turning};
 use super::touch::touches;
+use sandbox::prelude::*;
 
 /// One step with so many passes over all constraints.
 pub(super) fn step(model: &mut Model, dt: f64, passes: usize) {

@@ -1,9 +1,9 @@
 //! A ring on an edge, with the edge as a formula: smooth, so that orders can be seen.
 
-use crate::prelude::*;
 use glam::{DMat2, DVec2};
 use integrator::problems::Springs;
 use integrator::{Fault, System, Wrapped};
+use sandbox::prelude::*;
 
 /// A round edge beside the middle of the ring: place, radius, steepness and reach.
 const MIDDLE: DVec2 = DVec2::new(0.8, -0.5);

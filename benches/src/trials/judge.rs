@@ -1,29 +1,10 @@
 //! How the claims about schemes are judged.
 
-use crate::prelude::*;
 use super::trials::schemes;
-
-/// Whether one scheme asks for fewer forces than another; one that never got there has lost.
-pub(super) fn fewer(
-    record: &Record,
-    winner: &str,
-    loser: &str,
-    target: &str,
-) -> Result<Finding> {
-    let forces = |name: &str| record.number(&format!("{name}: forces to {target}"));
-    let (own, other) = (forces(winner)?, forces(loser)?);
-    Ok(Finding::new(
-        own < other,
-        format!("{} forces against {}", words(own), words(other)),
-    ))
-}
+use sandbox::prelude::*;
 
 /// Whether one scheme asks for fewer forces than every other.
-pub(super) fn fewest_of_all(
-    record: &Record,
-    winner: &str,
-    target: &str,
-) -> Result<Finding> {
+pub(super) fn fewest_of_all(record: &Record, winner: &str, target: &str) -> Result<Finding> {
     let forces = |name: &str| record.number(&format!("{name}: forces to {target}"));
     let own = forces(winner)?;
     let mut next = ("none", f64::INFINITY);
@@ -40,24 +21,6 @@ pub(super) fn fewest_of_all(
         words(next.1)
     );
     Ok(Finding::new(own < next.1, found))
-}
-
-/// Whether one scheme takes fewer steps than each of some others.
-pub(super) fn fewer_steps(
-    record: &Record,
-    winner: &str,
-    losers: &[&str],
-    target: &str,
-) -> Result<Finding> {
-    let steps = |name: &str| record.number(&format!("{name}: steps to {target}"));
-    let own = steps(winner)?;
-    let (mut holds, mut found) = (own.is_finite(), format!("{} steps", words(own)));
-    for loser in losers {
-        let other = steps(loser)?;
-        holds &= own < other;
-        found += &format!("; {loser} {}", words(other));
-    }
-    Ok(Finding::new(holds, found))
 }
 
 fn words(count: f64) -> String {

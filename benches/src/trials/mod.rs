@@ -1,10 +1,10 @@
 //! Work against precision: every scheme on the same problems.
 //!
-//! Times depend on the machine, so none of this is in the catalogue; the subcommand `integrators`
-//! runs it, and docs/integrators.md has the tables of one run. `figures --check` judges the same
-//! claims on a short form, in which forces are counted and nothing is timed.
+//! Times depend on the machine, so nothing of this is compared with numbers; docs/integrators.md has
+//! the tables of one run. The same claims are judged on a short form, in which forces are counted
+//! and nothing is timed.
 
-use crate::prelude::*;
+use sandbox::Experiment;
 
 mod chart;
 mod drift;
@@ -18,8 +18,8 @@ mod trials;
 pub use effort::{Effort, Stopwatch, coarsest, effort, least_steps, scan};
 pub use trial::{Care, NODES, Trial, apple, edge, ring, wall};
 
-/// The experiments of the subcommand, in order.
-pub const INTEGRATORS: &[&crate::Experiment] = &[
+/// The trials, in order.
+pub const TRIALS: &[&Experiment] = &[
     &trials::RING_2,
     &trials::RING_4,
     &trials::RING_6,
@@ -32,7 +32,7 @@ pub const INTEGRATORS: &[&crate::Experiment] = &[
 ];
 
 /// The same claims on runs that are counted and not timed: what the gate can afford.
-pub const INTEGRATORS_IN_SHORT: &[&crate::Experiment] = &[
+pub const TRIALS_IN_SHORT: &[&Experiment] = &[
     &trials::RING_2_COUNTED,
     &trials::RING_4_COUNTED,
     &trials::RING_6_COUNTED,
@@ -50,11 +50,10 @@ mod tests {
 
     #[test]
     fn the_short_form_judges_the_same_claims_of_every_trial() {
-        assert_eq!(INTEGRATORS.len(), INTEGRATORS_IN_SHORT.len());
-        for (long, short) in INTEGRATORS.iter().zip(INTEGRATORS_IN_SHORT) {
+        assert_eq!(TRIALS.len(), TRIALS_IN_SHORT.len());
+        for (long, short) in TRIALS.iter().zip(TRIALS_IN_SHORT) {
             assert_eq!(long.id, short.id);
-            let says =
-                |one: &crate::Experiment| one.claims.iter().map(|c| c.says).collect::<Vec<_>>();
+            let says = |one: &Experiment| one.claims.iter().map(|c| c.says()).collect::<Vec<_>>();
             assert_eq!(says(long), says(short));
             assert!(!long.claims.is_empty());
         }

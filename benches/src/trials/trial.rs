@@ -1,9 +1,9 @@
 //! The problems every scheme is tried on.
 
-use crate::prelude::*;
 use super::edge::EdgeRing;
 use integrator::problems::{self, spring_motion};
 use integrator::{Scheme, Start, State, System};
+use sandbox::prelude::*;
 use scene::Scene;
 use std::f64::consts::TAU;
 
@@ -103,8 +103,7 @@ pub fn ring(ratio: f64, gravity: f64) -> Result<Trial> {
 ///
 /// Whatever the reference refuses.
 pub fn edge(ratio: f64) -> Result<Trial> {
-    let problem =
-        problems::ring(NODES, 0.01, 1.0, [1.0, 0.0, (ratio - 1.0) / 16.0])?;
+    let problem = problems::ring(NODES, 0.01, 1.0, [1.0, 0.0, (ratio - 1.0) / 16.0])?;
     let start = State::at_rest(problem.system.rest.clone());
     referred(Box::new(EdgeRing::new(problem.system)), start, 5.0, 1e-12)
 }
@@ -139,8 +138,7 @@ fn referred(
     let mut state = start.clone();
     let scheme = Scheme::DormandPrince { tolerance };
     let half = 0.5 * until;
-    let mut stepper = scheme
-        .start(&mut *system, &state, half, Start::SecondOrder)?;
+    let mut stepper = scheme.start(&mut *system, &state, half, Start::SecondOrder)?;
     let mut truth = Vec::new();
     for share in [0.5, 1.0] {
         stepper.step(&mut *system, &mut state)?;
@@ -153,8 +151,4 @@ fn referred(
         truth,
         care: Care::Timed,
     })
-}
-
-fn refused<E: std::fmt::Display>(reason: E) -> SandboxError {
-    SandboxError::refused("integrators")(reason)
 }

@@ -26,7 +26,7 @@ const FLOORS: [(&str, u32); 13] = [
     ("scene", 4),
     ("cli", 5),
     ("sandbox", 5),
-    ("benches", 6), // it times what the sandbox tries
+    ("benches", 6), // it draws with the kit of the sandbox
     ("py", 5),
 ];
 
