@@ -25,6 +25,9 @@ pub(crate) fn real_steps(steps: u64) -> f64 {
     usize::try_from(steps).map_or(f64::INFINITY, real)
 }
 
+/// Words of a scene, and what stands in their place: `[(from, to)]`.
+pub(crate) type Changes = &'static [(&'static str, &'static str)];
+
 /// A shipped scene, some of its words exchanged for others: `[(from, to)]`.
 ///
 /// # Errors

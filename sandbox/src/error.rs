@@ -40,7 +40,7 @@ pub enum SandboxError {
         /// Which.
         experiment: &'static str,
         /// What.
-        reason: Box<SandboxError>,
+        reason: Box<Self>,
     },
     /// An experiment that is not one of those asked among.
     #[error("--only must be one of {known}, got {id}")]

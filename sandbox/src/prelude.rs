@@ -1,9 +1,9 @@
 //! What an experiment is written with.
 
-pub use crate::course::{Group, group, scene_with};
 pub(crate) use crate::course::{
-    frame, group_of, last, moved, ran, real_steps, steps_in, to_the_end, watch, watched,
+    Changes, frame, group_of, last, moved, ran, real_steps, steps_in, to_the_end, watch, watched,
 };
+pub use crate::course::{Group, group, scene_with};
 pub use crate::demand::{
     Demand, above, at_least, at_most, below, close, falling, less, like, more, near, never, ratio,
     rising,

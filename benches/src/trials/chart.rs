@@ -1,6 +1,6 @@
 //! Error against forces and against time, one color a scheme.
 
-use super::trials::schemes;
+use super::problems::schemes;
 use integrator::Scheme;
 use sandbox::prelude::*;
 

@@ -1,6 +1,6 @@
 //! How the claims about schemes are judged.
 
-use super::trials::schemes;
+use super::problems::schemes;
 use sandbox::prelude::*;
 
 /// Whether one scheme asks for fewer forces than every other.

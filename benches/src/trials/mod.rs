@@ -11,35 +11,35 @@ mod drift;
 mod edge;
 mod effort;
 mod judge;
+mod problems;
 mod rest;
 mod trial;
-mod trials;
 
 pub use effort::{Effort, Stopwatch, coarsest, effort, least_steps, scan};
 pub use trial::{Care, NODES, Trial, apple, edge, ring, wall};
 
 /// The trials, in order.
 pub const TRIALS: &[&Experiment] = &[
-    &trials::RING_2,
-    &trials::RING_4,
-    &trials::RING_6,
-    &trials::EDGE_4,
-    &trials::EDGE_6,
-    &trials::WALL,
-    &trials::APPLE,
+    &problems::RING_2,
+    &problems::RING_4,
+    &problems::RING_6,
+    &problems::EDGE_4,
+    &problems::EDGE_6,
+    &problems::WALL,
+    &problems::APPLE,
     &drift::DRIFT,
     &rest::REST,
 ];
 
 /// The same claims on runs that are counted and not timed: what the gate can afford.
 pub const TRIALS_IN_SHORT: &[&Experiment] = &[
-    &trials::RING_2_COUNTED,
-    &trials::RING_4_COUNTED,
-    &trials::RING_6_COUNTED,
-    &trials::EDGE_4_COUNTED,
-    &trials::EDGE_6_COUNTED,
-    &trials::WALL_COUNTED,
-    &trials::APPLE_COUNTED,
+    &problems::RING_2_COUNTED,
+    &problems::RING_4_COUNTED,
+    &problems::RING_6_COUNTED,
+    &problems::EDGE_4_COUNTED,
+    &problems::EDGE_6_COUNTED,
+    &problems::WALL_COUNTED,
+    &problems::APPLE_COUNTED,
     &drift::DRIFT_SHORT,
     &rest::REST_SHORT,
 ];

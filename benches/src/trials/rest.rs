@@ -87,8 +87,8 @@ fn steps_to_rest(scene: &mut Scene, end: &[DVec2], scheme: Scheme, dt: f64) -> O
     let mut arrived = None;
     while state.t < UNTIL.max(40.0 * dt) {
         stepper.step(&mut scene.snake, &mut state).ok()?;
-        let apart = state.x.iter().zip(end).map(|(x, y)| x.distance(*y));
-        if apart.fold(true, |near, d| near && d <= NEAR) {
+        let mut apart = state.x.iter().zip(end).map(|(x, y)| x.distance(*y));
+        if apart.all(|d| d <= NEAR) {
             arrived = arrived.or(Some(state.step));
         } else {
             arrived = None;

@@ -54,7 +54,7 @@ const EXPORTS_TODAY: [(&str, usize); 8] = [
     ("outline", 38),
     ("scene", 38),
     ("snake", 55),
-    ("sandbox", 47),
+    ("sandbox", 34),
 ];
 
 /// The path of a file below the root of the workspace.

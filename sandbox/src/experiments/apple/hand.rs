@@ -19,7 +19,7 @@ const VOLCANO: &str = "[[hand]]\nfrom = 200.0\nuntil = 320.0\nforce = { kind = \
 const HELD: &str = "[[hand]]\nfrom = 200.0\nuntil = 320.0\nhold = [0, 30]\n\n[[hand]]\nfrom = 200.0\nuntil = 320.0\nforce";
 
 /// The same start four times, and what is changed in the scene.
-const RUNS: [(&str, &[(&str, &str)]); 4] = [
+const RUNS: [(&str, Changes); 4] = [
     ("alone", &[(PULL, "")]),
     ("pulled", &[]),
     ("pushed", &[(PULL, VOLCANO)]),

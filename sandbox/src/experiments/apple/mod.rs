@@ -17,7 +17,6 @@ pub(crate) use overview::OVERVIEW;
 pub(crate) use rules::RULES;
 
 use crate::prelude::*;
-use Figure;
 use story::{Story, Truth, share_of, top};
 
 /// The fourteen moments, a to n.

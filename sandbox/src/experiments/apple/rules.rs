@@ -10,7 +10,7 @@ const START: &str = "start = { shipped = \"apple-over-the-stem\" }\n";
 const START_AND_REST: &str = "start = { shipped = \"apple-over-the-stem\" }\nrest = { shipped = \"apple-without-the-stem\" }\n";
 
 /// Rules and natural shape, each of two kinds.
-const CASES: [(&str, &str, &[(&str, &str)]); 4] = [
+const CASES: [(&str, &str, Changes); 4] = [
     ("report's rules; drawn shape", "apple-report", &[]),
     (
         "report's rules; shape without the bump",

@@ -128,7 +128,7 @@ pub(crate) fn follow(name: &str, changes: &[(&str, &str)]) -> Result<(Course, sc
     let start = scene.start.clone();
     course.see(&snake, start.t, &start.x, &start.v);
     let run = watched(&mut scene, &mut |state| {
-        course.see(&snake, state.t, &state.x, &state.v)
+        course.see(&snake, state.t, &state.x, &state.v);
     })?;
     Ok((course, run))
 }

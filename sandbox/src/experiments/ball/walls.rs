@@ -142,7 +142,7 @@ pub(crate) const FRICTION: Experiment = Experiment {
 const FLOOR: &str = "[[world.wall]]\npoint = [0.0, 4.0]\nnormal = [0.0, 1.0]\nlaw = { impact = { restitution = 0.2, friction = 0.3 } }\n";
 
 /// What is tried: the scene, and what is left out of it.
-const TRIED: [(&str, &str, &[(&str, &str)]); 3] = [
+const TRIED: [(&str, &str, Changes); 3] = [
     ("smooth", "very-soft-ball", &[]),
     ("rough", "very-soft-ball-friction", &[(FLOOR, "")]),
     ("rough with a floor", "very-soft-ball-friction", &[]),

@@ -7,7 +7,7 @@ const ELLIPSE: (DVec2, DVec2) = (DVec2::new(64.0, 48.0), DVec2::new(44.0, 18.0))
 const HIDDEN: f64 = 96.0;
 const RATE: f64 = 0.005;
 /// Growth, none, and a balloon instead of a memory: what is changed in the scene.
-const RUNS: [(&str, &[(&str, &str)]); 3] = [
+const RUNS: [(&str, Changes); 3] = [
     ("grows", &[]),
     ("does not grow", &[NO_GROWTH]),
     (

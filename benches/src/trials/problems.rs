@@ -31,7 +31,8 @@ fn try_all(trial: Result<Trial>) -> Result {
         let name = scheme.name();
         for (target, words) in TARGETS {
             let found = least_steps(&mut trial, scheme, &seen, target);
-            let read: [(&str, &str, fn(&Effort) -> f64); 4] = [
+            type Read = fn(&Effort) -> f64;
+            let read: [(&str, &str, Read); 4] = [
                 ("steps", "", |run| to_real(run.steps)),
                 ("forces", "", |run| to_real(run.forces)),
                 ("time", "µs", |run| 1e6 * run.seconds),
