@@ -1,10 +1,10 @@
 //! The trials of schemes, and soft bodies by other methods: claims, tables, drawings, a page.
 //!
-//! `cargo run --release -p benches --example trials -- [--only ID] [--out DIR]` runs them, one after
-//! the other so that times are not disturbed, and writes into DIR (`trials` if none is given).
-//! With `--check` it writes nothing: it judges the schemes on their short form, in which forces are
-//! counted, and compares numbers and drawing of the soft bodies with those committed. `--accept` takes
-//! what is found of the soft bodies as committed from now on.
+//! `cargo run --release -p benches --example trials -- [--only ID] [--out DIR]` runs them, one
+//! after the other so that times are not disturbed, and writes into DIR (`trials` if none is given). With
+//! `--check` it writes nothing: it judges the schemes on their short form, in which forces are
+//! counted, and compares numbers and drawing of the soft bodies with those committed. `--accept`
+//! takes what is found of the soft bodies as committed from now on.
 
 #![allow(clippy::print_stdout, reason = "an example tells what it found")]
 

@@ -1,5 +1,5 @@
-//! What is tried beside this project: schemes on problems with a known end, and soft bodies by other
-//! methods.
+//! What is tried beside this project: schemes on problems with a known end, and soft bodies by
+//! other methods.
 //!
 //! `cargo run --release -p benches --example trials` runs it, with the records, claims and drawings
 //! of the sandbox.

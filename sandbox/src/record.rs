@@ -56,6 +56,21 @@ pub struct Record {
     reads: RefCell<Vec<Read>>,
 }
 
+/// Notes of one of several cases.
+#[derive(Debug)]
+pub struct Notes<'a> {
+    record: &'a mut Record,
+    case: String,
+}
+
+impl Notes<'_> {
+    /// As [`Record::note`], of this case.
+    pub fn note(&mut self, name: &str, value: f64, tolerance: impl Into<Tolerance>) {
+        let name = format!("{}: {name}", self.case);
+        self.record.note(name, value, tolerance);
+    }
+}
+
 impl Record {
     /// What `reader` asks this record for, each once, besides its answer. What is only shown
     /// ([`Record::told`]) does not count.
@@ -80,6 +95,12 @@ impl Record {
             unit,
             tolerance: tolerance.into(),
         });
+    }
+
+    /// Notes of one of several cases: each name behind that of the case and a colon.
+    pub fn under(&mut self, case: impl std::fmt::Display) -> Notes<'_> {
+        let case = case.to_string();
+        Notes { record: self, case }
     }
 
     /// Keeps a table.
@@ -207,7 +228,7 @@ impl Record {
         let tables = self.tables.iter();
         let tables = tables.map(|table| (format!("{id}.{}.csv", slug(table.name)), table.csv()));
         let runs = self.runs.iter();
-        let runs = runs.map(|(name, run)| (format!("{id}.{}.csv", slug(name)), run.csv()));
+        let runs = runs.map(|(name, run)| (format!("{id}.{}.run.csv", slug(name)), run.csv()));
         std::iter::once(numbers).chain(tables).chain(runs).collect()
     }
 

@@ -194,3 +194,41 @@ pub(crate) fn change(rows: &[(f64, Vec<f64>)]) -> f64 {
 pub(crate) fn gap_of(rows: &[(f64, Vec<f64>)]) -> f64 {
     stray(rows) / change(rows)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run() -> Run {
+        let frame = |t: f64| Frame::closed(t, vec![DVec2::new(t, 0.0), DVec2::new(t, 1.0)]);
+        Run {
+            frames: [0.0, 1.0, 2.5].map(frame).to_vec(),
+            terms: vec!["kinetic".to_owned(), "damping".to_owned()],
+            account: vec![(0.0, vec![4.0, 0.0]), (1.0, vec![1.0, 2.5])],
+        }
+    }
+
+    #[test]
+    fn moments_are_found_by_their_times() {
+        let run = run();
+        assert_eq!([0.4, 0.6, 9.0].map(|t| run.nearest(t)), [0, 1, 2]);
+        assert_eq!(run.each(1.0), [0, 1, 2]);
+        assert_eq!(run.frames[2].curves[0].points().len(), 3);
+    }
+
+    #[test]
+    fn an_account_strays_by_its_sum_and_changes_by_its_terms() {
+        let run = run();
+        assert_eq!(run.energy("damping").unwrap(), [(0.0, 0.0), (1.0, 2.5)]);
+        assert!(run.energy("none").is_err());
+        assert!((stray(&run.account) - 0.5).abs() < 1e-15);
+        assert!((gap_of(&run.account) - 0.5 / 3.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_run_is_written_a_node_a_line_with_its_account_below() {
+        let text = run().csv();
+        assert!(text.starts_with("t,curve,x,y\n0,0,0,0\n0,0,0,1\n1,0,1,0\n"));
+        assert!(text.ends_with("\nt,kinetic,damping\n0,4,0\n1,1,2.5\n"));
+    }
+}

@@ -130,7 +130,8 @@ pub const PEERS: Experiment = Experiment {
     draw,
 };
 
-/// The largest change of a result by other nodes or half the step; more than everything where it blew up.
+/// The largest change of a result by other nodes or half the step; more than everything where it
+/// blew up.
 fn most_change(record: &Record, method: Method) -> Result<f64> {
     let mut largest = 0.0_f64;
     for case in &CASES {

@@ -1,7 +1,7 @@
 //! Work against precision: every scheme on the same problems.
 //!
-//! Times depend on the machine, so nothing of this is compared with numbers; docs/integrators.md has
-//! the tables of one run. The same claims are judged on a short form, in which forces are counted
+//! Times depend on the machine, so nothing of this is compared with numbers; docs/integrators.md
+//! has the tables of one run. The same claims are judged on a short form, in which forces are counted
 //! and nothing is timed.
 
 use sandbox::Experiment;

@@ -177,10 +177,11 @@ fn run() -> Result {
         frames.push(Frame::closed(state.t, state.x.clone()));
         sizes.push(look(&state));
         let radii = || state.x.iter().map(|p| p.distance(MIDDLE));
-        record.note(format!("{name}: nearest node [px]"), least(radii()), 0.01);
-        record.note(format!("{name}: farthest node [px]"), most(radii()), 0.01);
-        record.note(format!("{name}: mean radius [px]"), mean(radii()), 0.01);
-        record.note(format!("{name}: area [px²]"), look(&state).1, share(1e-3));
+        let mut own = record.under(name);
+        own.note("nearest node [px]", least(radii()), 0.01);
+        own.note("farthest node [px]", most(radii()), 0.01);
+        own.note("mean radius [px]", mean(radii()), 0.01);
+        own.note("area [px²]", look(&state).1, share(1e-3));
         record.keep_run(name, frames);
         record.keep(Table::raw(name).pairs("t", "area", &sizes));
     }

@@ -97,8 +97,9 @@ fn run() -> Result {
             second = second.max((leapfrog[step] - right).abs());
         }
         let count = real(crossings(&report));
-        record.note(format!("{name}: crossings of zero"), count, EXACT);
-        record.note(format!("{name}: time to rest [s]"), time_to_rest(c), 0.006);
+        let mut own = record.under(name);
+        own.note("crossings of zero", count, EXACT);
+        own.note("time to rest [s]", time_to_rest(c), 0.006);
         table = table
             .with(
                 format!("exact {name}"),

@@ -160,7 +160,7 @@ fn run() -> Result {
     let mut record = Record::default();
     // moments of looking are a fifth of the run apart
     let like = Tolerance::RelativeOrInfinite(0.02);
-    for (name, low, high, own) in CASES {
+    for (name, low, high, constant) in CASES {
         let run = case(name)?;
         let time = |rule| -> Result<f64> { Ok(run.under(&[rule])?.time_to_rest()) };
         let (mut gammas, mut times) = (Vec::new(), Vec::new());
@@ -170,30 +170,23 @@ fn run() -> Result {
             times.push(time(Damping::Constant(gamma))?);
         }
         let best = run.best_constant(low, high, 9)?;
-        record.note(
-            format!("{name}: best constant [s]"),
-            best.time_to_rest(),
-            like,
-        );
+        let mut own = record.under(name);
+        own.note("best constant [s]", best.time_to_rest(), like);
         let found = match best.rules.first() {
             Some(Damping::Constant(gamma)) => *gamma,
             _ => f64::NAN,
         };
-        record.note(format!("{name}: its damping [1/s]"), found, share(0.1));
-        let own = time(Damping::Constant(own))?;
-        record.note(format!("{name}: the scene's own constant [s]"), own, like);
+        own.note("its damping [1/s]", found, share(0.1));
+        let by_hand = time(Damping::Constant(constant))?;
+        own.note("the scene's own constant [s]", by_hand, like);
         for (rule, damping, _) in RULES {
-            record.note(format!("{name}: {rule} [s]"), time(damping)?, like);
+            own.note(&format!("{rule} [s]"), time(damping)?, like);
             // where it stands among the constants: the mean of what it chose
             let mut snake = run.snake.clone();
             snake.damp(Damping::Constant(0.0), &run.state)?;
             snake.damp(damping, &run.state)?;
             let mean = mean(snake.damping().iter().copied());
-            record.note(
-                format!("{name}: {rule}: mean damping [1/s]"),
-                mean,
-                share(1e-6),
-            );
+            own.note(&format!("{rule}: mean damping [1/s]"), mean, share(1e-6));
         }
         let search = Table::raw(name).exact("gamma [1/s]", gammas);
         record.keep(search.exact("time [s]", times));

@@ -63,13 +63,10 @@ fn run() -> Result {
         let (to, along): (Vec<f64>, Vec<f64>) = found.unzip();
         let (largest, lowest) = (most(to.iter().copied()), least(to.iter().copied()));
         let sideways = most(along.iter().copied()) / largest;
-        record.note(format!("{name}: pull at 0° [M px/T²]"), to[0], share(1e-9));
+        let mut own = record.under(name);
+        own.note("pull at 0° [M px/T²]", to[0], share(1e-9));
         let uneven = largest / lowest;
-        record.note(
-            format!("{name}: pull; largest over least"),
-            uneven,
-            ROUNDING,
-        );
+        own.note("pull; largest over least", uneven, ROUNDING);
         let askew = format!("{name}: pull along the edge; share of that to it");
         record.note(askew, sideways, ROUNDING);
         table = table

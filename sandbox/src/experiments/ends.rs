@@ -46,14 +46,11 @@ fn run() -> Result {
             .map(|frame| elastic::center(&frame.nodes, None));
         let centers: Vec<DVec2> = centers.collect();
         let way = most(centers.iter().map(|c| c.distance(centers[0])));
-        record.note(format!("{name}: center moved at most [px]"), way, ROUNDING);
+        let mut own = record.under(name);
+        own.note("center moved at most [px]", way, ROUNDING);
         let start = bend(&run.frames[0].nodes);
-        record.note(format!("{name}: bend at the start [px]"), start, ROUNDING);
-        record.note(
-            format!("{name}: bend at the end [px]"),
-            bend(last(&run)),
-            ROUNDING,
-        );
+        own.note("bend at the start [px]", start, ROUNDING);
+        own.note("bend at the end [px]", bend(last(&run)), ROUNDING);
         let times = Table::new(table).with("t [s]", ROUNDING, run.frames.iter().map(|f| f.t));
         record.keep(times.xy("px", ROUNDING, &centers));
         record.keep_run(name, &run);

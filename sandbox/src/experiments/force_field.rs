@@ -77,9 +77,10 @@ fn measure(
     // one point of 400 may go over to the other side
     let few = 0.003;
     let inside = mean(all.clone().map(|i| flag(along(i, -4.0) > 0.0)));
-    record.note(format!("{name}: pulled outward 4 px inside"), inside, few);
+    let mut own = record.under(name);
+    own.note("pulled outward 4 px inside", inside, few);
     let outside = mean(all.clone().map(|i| flag(along(i, 4.0) < 0.0)));
-    record.note(format!("{name}: pulled inward 4 px outside"), outside, few);
+    own.note("pulled inward 4 px outside", outside, few);
     // the nearest place where the pull turns from outward to inward
     let zero = |i: usize| {
         let places = (0..160).map(|step| -8.0 + 0.1 * real(step));
@@ -87,8 +88,8 @@ fn measure(
         turns.map(|d| (d + 0.05).abs()).fold(8.0, f64::min)
     };
     let zero = median(all.clone().map(zero));
-    record.note(
-        format!("{name}: median distance of the zero from the contour [px]"),
+    own.note(
+        "median distance of the zero from the contour [px]",
         zero,
         0.11,
     );
@@ -103,16 +104,12 @@ fn measure(
         .map(DVec2::from)
         .filter(|at| contour.iter().all(|p| p.distance(*at) > 25.0));
     let weak = median(far.map(|at| field.at(at).length())) / near;
-    record.note(
-        format!("{name}: median far from the contour; share of that at 4 px"),
+    own.note(
+        "median far from the contour; share of that at 4 px",
         weak,
         1e-6,
     );
-    record.note(
-        format!("{name}: largest force [M px/T²]"),
-        field.largest(),
-        share(1e-9),
-    );
+    own.note("largest force [M px/T²]", field.largest(), share(1e-9));
 }
 
 fn median(values: impl Iterator<Item = f64>) -> f64 {

@@ -132,8 +132,9 @@ fn run() -> Result {
     for (name, mut scene) in cases {
         let run = to_the_end(&mut scene)?;
         let (door, corners) = measure(last(&run));
-        record.note(format!("{name}: off at the door [px]"), door, 1e-5);
-        record.note(format!("{name}: off at the corners [px]"), corners, 1e-5);
+        let mut own = record.under(&name);
+        own.note("off at the door [px]", door, 1e-5);
+        own.note("off at the corners [px]", corners, 1e-5);
         if name == "map" {
             keep_account(&mut record, &run);
             keep_pictures(&mut record, &scene)?;

@@ -95,20 +95,13 @@ fn run() -> Result {
         let found = (most(arcs()).min(to) - least(arcs()).max(from)) / (to - from);
         let rms = mean(places.iter().map(|p| p.0 * p.0)).sqrt();
         let (head, tail) = (nodes[0], nodes[nodes.len() - 1]);
-        record.note(format!("{name}: share of the road found"), found, 1e-3);
-        record.note(
-            format!("{name}: rms distance from its middle [px]"),
-            rms,
-            close,
-        );
-        record.note(format!("{name}: nodes"), real(nodes.len()), EXACT);
+        let mut own = record.under(name);
+        own.note("share of the road found", found, 1e-3);
+        own.note("rms distance from its middle [px]", rms, close);
+        own.note("nodes", real(nodes.len()), EXACT);
         let short = tail.distance(end);
-        record.note(
-            format!("{name}: tail from the end of the road [px]"),
-            short,
-            close,
-        );
-        record.note(format!("{name}: head from the border [px]"), head.x, close);
+        own.note("tail from the end of the road [px]", short, close);
+        own.note("head from the border [px]", head.x, close);
         let off = Table::raw(name).exact("arc [px]", arcs());
         record.keep(off.exact("off [px]", places.iter().map(|p| p.0)));
         record.keep_run(name, &run);
@@ -124,17 +117,14 @@ fn run() -> Result {
         }
         let nodes = last(&run);
         let off = most(nodes.iter().map(|p| (p.y - 40.0).abs()));
-        record.note(
-            format!("{name}: largest distance from the edge [px]"),
-            off,
-            share(0.3),
-        );
+        let mut own = record.under(name);
+        own.note("largest distance from the edge [px]", off, share(0.3));
         let ends = nodes[0]
             .x
             .abs()
             .max((nodes[nodes.len() - 1].x - 95.0).abs());
         let loose = if name == "free" { close } else { ROUNDING };
-        record.note(format!("{name}: ends off the border [px]"), ends, loose);
+        own.note("ends off the border [px]", ends, loose);
         record.keep_run(name, &run);
     }
     Ok(record)

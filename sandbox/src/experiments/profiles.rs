@@ -55,16 +55,9 @@ fn run() -> Result {
         let nodes = last(&run);
         let quarter = nodes.len() / 4;
         let (head, tail) = (&nodes[..=quarter], &nodes[nodes.len() - 1 - quarter..]);
-        record.note(
-            format!("{name}: turn in the first quarter [°]"),
-            turned(head),
-            close,
-        );
-        record.note(
-            format!("{name}: turn in the last quarter [°]"),
-            turned(tail),
-            close,
-        );
+        let mut own = record.under(name);
+        own.note("turn in the first quarter [°]", turned(head), close);
+        own.note("turn in the last quarter [°]", turned(tail), close);
         record.keep(Table::new(name).xy("px", close, nodes));
     }
     let (scene, run) = ran("hardening-ball", &[("every = 50", "every = 10")])?;

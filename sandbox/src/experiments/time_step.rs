@@ -154,8 +154,9 @@ fn limits(record: &mut Record) -> Result<()> {
             runs.push(found);
         }
         let name = scheme.0.name();
-        record.note(format!("{name}: predicted limit [s]"), theory[2], ROUNDING);
-        record.note(format!("{name}: measured limit [s]"), runs[2], share(1e-3));
+        let mut own = record.under(name);
+        own.note("predicted limit [s]", theory[2], ROUNDING);
+        own.note("measured limit [s]", runs[2], share(1e-3));
         table = table
             .with(format!("{name} predicted [s]"), ROUNDING, theory)
             .with(format!("{name} measured [s]"), share(1e-3), runs);
@@ -190,21 +191,13 @@ fn time_to_rest(record: &mut Record) -> Result<()> {
         let spread = most(calm()) / least(calm()) - 1.0;
         let slope = (counts[6] / counts[0]).ln() / (steps[6] / steps[0]).ln();
         let fewest = least(counts.iter().copied());
-        record.note(
-            format!("{name}: steps to rest; smallest dt"),
-            counts[0],
-            1.0,
-        );
-        record.note(format!("{name}: fewest steps to rest"), fewest, 1.0);
-        record.note(
-            format!("{name}: slope of log steps over log dt"),
-            slope,
-            1e-3,
-        );
-        let name_of_time = format!("{name}: time to rest; smallest dt [s]");
-        record.note(name_of_time, times[0], share(1e-3));
-        let name_of_spread = format!("{name}: spread of the time to rest below 0.8 of the limit");
-        record.note(name_of_spread, spread, share(0.3));
+        let mut own = record.under(name);
+        own.note("steps to rest; smallest dt", counts[0], 1.0);
+        own.note("fewest steps to rest", fewest, 1.0);
+        own.note("slope of log steps over log dt", slope, 1e-3);
+        own.note("time to rest; smallest dt [s]", times[0], share(1e-3));
+        let of_time = "spread of the time to rest below 0.8 of the limit";
+        own.note(of_time, spread, share(0.3));
         table = table
             .with(format!("{name} dt [s]"), ROUNDING, steps)
             .with(format!("{name} steps"), 1.0, counts)

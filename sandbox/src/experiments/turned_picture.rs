@@ -65,22 +65,18 @@ fn run() -> Result {
         let far = |frame: &scene::Frame| most(frame.nodes.iter().map(|&p| off(p, frame.t).abs()));
         let away: Vec<f64> = run.frames.iter().map(far).collect();
         let largest = most(deformed.iter().copied());
-        record.note(
-            format!("{name}: largest deformation [px]"),
+        let mut own = record.under(name);
+        own.note("largest deformation [px]", largest, share(1e-3));
+        let largest = most(away.iter().copied());
+        own.note(
+            "largest distance from the border [px]",
             largest,
             share(1e-3),
         );
-        let largest = most(away.iter().copied());
-        let name_of_way = format!("{name}: largest distance from the border [px]");
-        record.note(name_of_way, largest, share(1e-3));
         if let Some(last) = run.frames.last() {
             let behind = RATE * last.t - scene.snake.angle(&last.nodes);
             let behind = behind - TAU * (behind / TAU).round();
-            record.note(
-                format!("{name}: angle behind the picture [rad]"),
-                behind,
-                1e-3,
-            );
+            own.note("angle behind the picture [rad]", behind, 1e-3);
         }
         record.keep(
             Table::raw(table)

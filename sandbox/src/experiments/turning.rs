@@ -69,23 +69,12 @@ fn run() -> Result {
         shots.truncate(5);
         let off = most(spins.iter().map(|p| (p.1 - 1.0).abs()));
         let close = if off < 1e-9 { ROUNDING } else { 1e-3 };
-        record.note(
-            format!("{name}: angular momentum off [of the start]"),
-            off,
-            close,
-        );
+        let mut own = record.under(name);
+        own.note("angular momentum off [of the start]", off, close);
         let lowest = least(spins.iter().map(|p| p.1));
-        record.note(
-            format!("{name}: least angular momentum [of the start]"),
-            lowest,
-            1e-3,
-        );
+        own.note("least angular momentum [of the start]", lowest, 1e-3);
         let highest = most(stretch.iter().map(|p| p.1));
-        record.note(
-            format!("{name}: most elastic energy [of the start]"),
-            highest,
-            1e-3,
-        );
+        own.note("most elastic energy [of the start]", highest, 1e-3);
         let spins = Table::raw(table).pairs("t [s]", "spin", &spins);
         record.keep(spins.exact("elastic", stretch.iter().map(|p| p.1)));
         record.keep_run(name, shots);

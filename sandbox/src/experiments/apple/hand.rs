@@ -71,23 +71,16 @@ fn run() -> Result {
         let (gone, end) = (story.at(GOES), story.last());
         let stem = end.iter().filter(|&&p| at_the_stem(p));
         let far = most(stem.map(|&p| story.truth.distance(p)));
-        record.note(
-            format!("{name}: farthest from the contour at the stem [px]"),
-            far,
-            0.5,
-        );
+        let mut own = record.under(name);
+        own.note("farthest from the contour at the stem [px]", far, 0.5);
         let off = story.truth.mean_distance(end).0;
-        record.note(format!("{name}: mean distance at the end [px]"), off, PLACE);
+        own.note("mean distance at the end [px]", off, PLACE);
         let rows = story.run.frames.iter();
         let rows = rows.filter_map(|frame| Some((frame.t, frame.energies.as_ref()?.values())));
         let rows: Vec<(f64, Vec<f64>)> = rows.collect();
         let largest = most(rows.iter().flat_map(|row| &row.1).map(|value| value.abs()));
         let gap = stray(&rows) / largest;
-        record.note(
-            format!("{name}: gap of the account [of the largest term]"),
-            gap,
-            1e-10,
-        );
+        own.note("gap of the account [of the largest term]", gap, 1e-10);
         if name == "held and pulled" {
             let way = |from: &[DVec2], to: &[DVec2]| {
                 most(from.iter().zip(to).take(31).map(|(a, b)| a.distance(*b)))

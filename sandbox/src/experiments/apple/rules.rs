@@ -61,21 +61,14 @@ fn run() -> Result {
         let story = Story::of(scene, changes, Truth::apple()?)?;
         let nodes = story.last();
         let place = if scene == "apple" { PLACE } else { loose };
-        record.note(format!("{name}: top at the end [px]"), top(nodes).y, place);
+        let mut own = record.under(name);
+        own.note("top at the end [px]", top(nodes).y, place);
         let moved = (top(nodes).y - top(story.at(200.0)).y).abs();
-        record.note(
-            format!("{name}: top moved since t = 200 [px]"),
-            moved,
-            share(0.3),
-        );
+        own.note("top moved since t = 200 [px]", moved, share(0.3));
         let stuck = share_of(&story.truth.stuck(nodes));
-        record.note(
-            format!("{name}: stuck at the end [of the nodes]"),
-            stuck,
-            0.05,
-        );
+        own.note("stuck at the end [of the nodes]", stuck, 0.05);
         let off = story.truth.mean_distance(nodes).0;
-        record.note(format!("{name}: mean distance at the end [px]"), off, place);
+        own.note("mean distance at the end [px]", off, place);
         if tops.columns.is_empty() {
             tops = tops.exact("t", story.run.frames.iter().map(|frame| frame.t));
             story.keep(&mut record, None, loose);

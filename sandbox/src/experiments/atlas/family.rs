@@ -192,7 +192,8 @@ fn run() -> Result {
             let column = seen.into_iter().step_by(KEEP);
             table = table.with(format!("{who} at {ratio}"), 1e-6, column);
         }
-        record.note(format!("{who}: off the curve by"), worst, 1e-5);
+        let mut own = record.under(who);
+        own.note("off the curve by", worst, 1e-5);
         let (mut low, mut high) = (0.7, 1.3);
         while high - low > 1e-3 {
             let middle = f64::midpoint(low, high);
@@ -203,7 +204,7 @@ fn run() -> Result {
                 high = middle;
             }
         }
-        record.note(format!("{who}: least ζ without overshoot"), high, 2e-3);
+        own.note("least ζ without overshoot", high, 2e-3);
     }
     record.keep(table);
     let slope = in_a_picture(1.0)?.frequency.powi(2);

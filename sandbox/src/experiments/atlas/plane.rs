@@ -78,16 +78,9 @@ impl Plane {
                     .zip(row)
                     .for_each(|(column, value)| column.push(value));
             }
-            record.note(
-                format!("{name}: dots off their prediction"),
-                real(wrong),
-                EXACT,
-            );
-            record.note(
-                format!("{name}: dots within 2 % of a border"),
-                real(at_border),
-                EXACT,
-            );
+            let mut own = record.under(name);
+            own.note("dots off their prediction", real(wrong), EXACT);
+            own.note("dots within 2 % of a border", real(at_border), EXACT);
             for (regime, count) in Regime::ALL.into_iter().zip(seen) {
                 let words = regime.words().replace(',', ";");
                 record.note(format!("{name}: {words}"), real(count), EXACT);

@@ -67,7 +67,8 @@ fn run_walls() -> Result {
         let (course, run) = course::follow(scene, &[])?;
         course::sum_up(&mut record, &format!("{law}: "), &course);
         let deepest = least(course.least_x.iter().copied());
-        record.note(format!("{law}: depth"), (-deepest).max(0.0), STEPS);
+        let mut own = record.under(law);
+        own.note("depth", (-deepest).max(0.0), STEPS);
         record.keep_run(law, &run);
         let rows = || (0..course.t.len()).step_by(10);
         if fine.columns.is_empty() {
@@ -160,11 +161,8 @@ fn run_friction() -> Result {
     for (name, scene, changes) in TRIED {
         let (course, run) = course::follow(scene, changes)?;
         course::sum_up(&mut record, &format!("{name}: "), &course);
-        record.note(
-            format!("{name}: height at the end"),
-            height(last(&run)),
-            STEPS,
-        );
+        let mut own = record.under(name);
+        own.note("height at the end", height(last(&run)), STEPS);
         if heights.columns.is_empty() {
             heights = heights.exact("t [s]", run.frames.iter().map(|frame| frame.t));
         }

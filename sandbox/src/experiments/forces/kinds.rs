@@ -112,18 +112,19 @@ fn measure(record: &mut Record, name: &str, field: &ForceField) {
         flag(field.at(at + outward * way).dot(outward) * way < 0.0)
     };
     let few = 1e-3;
-    let name_of_share = format!("{name}: pulled to the outline at 3 px [of the places]");
-    record.note(name_of_share, mean(sides.map(pulled)), few);
+    let pulled = mean(sides.map(pulled));
+    record.note(
+        format!("{name}: pulled to the outline at 3 px [of the places]"),
+        pulled,
+        few,
+    );
     let (fx, fy) = field.components();
     let size = Grid::from_shape_fn(fx.dim(), |at| fx[at].hypot(fy[at]));
     let lowest = 0.01 * field.largest();
     let felt = mean(size.iter().map(|&size| flag(size > lowest)));
-    record.note(
-        format!("{name}: felt in this part of the picture"),
-        felt,
-        few,
-    );
-    record.note(format!("{name}: curl [of the slope]"), curl(field), 1e-5);
+    let mut own = record.under(name);
+    own.note("felt in this part of the picture", felt, few);
+    own.note("curl [of the slope]", curl(field), 1e-5);
     if name == "corners" {
         let corners = u_corners();
         let near = size.indexed_iter().filter(|((row, column), _)| {
@@ -175,7 +176,7 @@ fn run() -> Result {
             record.keep_grid(format!("{picture}: {name} x"), fx);
             record.keep_grid(format!("{picture}: {name} y"), fy);
         }
-        // two regions need a curve; about a circle in the middle of the picture their push is a grid too
+        // two regions need a curve; about a circle in the middle of the picture their push is a grid
         let circle = circle_in(&image);
         let regions = TwoRegions::new(&image, 1.0 / (OBJECT - AROUND).powi(2))?;
         let means = regions.means(&circle);

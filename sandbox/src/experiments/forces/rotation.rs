@@ -147,16 +147,9 @@ fn run() -> Result {
             );
         }
         let uneven = most(all()) / least(all());
-        record.note(
-            format!("{name}: strength; largest over least"),
-            uneven,
-            close,
-        );
-        record.note(
-            format!("{name}: direction; largest error [°]"),
-            most(askew()),
-            close,
-        );
+        let mut own = record.under(name);
+        own.note("strength; largest over least", uneven, close);
+        own.note("direction; largest error [°]", most(askew()), close);
         table = table
             .with(format!("{name}: strength [M px/T²]"), close, all())
             .with(format!("{name}: askew [°]"), close, askew());
@@ -171,23 +164,12 @@ fn run() -> Result {
             .map(|&p| (p - MIDDLE).to_angle().to_degrees().rem_euclid(360.0));
         let radii = || nodes.iter().map(|&p| p.distance(MIDDLE) - RADIUS);
         let gaps = || (0..nodes.len()).map(|i| nodes[i].distance(nodes[(i + 1) % nodes.len()]));
-        record.note(
-            format!("{name}: circle; mean of radius − R [px]"),
-            mean(radii()),
-            1e-4,
-        );
+        let mut own = record.under(name);
+        own.note("circle; mean of radius − R [px]", mean(radii()), 1e-4);
         let round = most(radii()) - least(radii());
-        record.note(
-            format!("{name}: circle; largest less least radius [px]"),
-            round,
-            1e-4,
-        );
+        own.note("circle; largest less least radius [px]", round, 1e-4);
         let even = most(gaps()) / least(gaps());
-        record.note(
-            format!("{name}: circle; widest over narrowest gap"),
-            even,
-            1e-3,
-        );
+        own.note("circle; widest over narrowest gap", even, 1e-3);
         let table = Table::raw(name).exact("angle [°]", angles);
         record.keep(table.exact("radius − R [px]", radii()));
     }

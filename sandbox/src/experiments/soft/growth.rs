@@ -87,19 +87,12 @@ fn run() -> Result {
             .iter()
             .partition(|p| p.x >= HIDDEN - 4.0);
         let seen = mean(seen.into_iter().map(off));
-        record.note(
-            format!("{name}: mean distance where it is seen [px]"),
-            seen,
-            0.05,
-        );
+        let mut own = record.under(name);
+        own.note("mean distance where it is seen [px]", seen, 0.05);
         // a snake that keeps its size has no node there
         if name != "does not grow" {
             let hidden = most(hidden.into_iter().map(off));
-            record.note(
-                format!("{name}: farthest where it is hidden [px]"),
-                hidden,
-                0.3,
-            );
+            own.note("farthest where it is hidden [px]", hidden, 0.3);
         }
         let gap = format!("{name}: gap of the account [of the largest term]");
         record.note(gap, gap_of(&rows), 1e-9);
