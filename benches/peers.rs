@@ -7,15 +7,14 @@
 #![allow(clippy::print_stdout, reason = "a bench tells what it found")]
 
 use banded::Operator;
+use benches::{Effort, NODES, Stopwatch, Trial, edge, effort, least_steps, ring, scan};
 use diffsol::{
     FaerSparseLU, FaerSparseMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason, Vector,
 };
 use glam::{DMat2, DVec2};
 use integrator::Scheme;
 use ode_solvers::{DVector, Dop853, OutputType};
-use sandbox::{
-    Effort, NODES, SandboxError, Stopwatch, Trial, edge, effort, least_steps, ring, scan,
-};
+use sandbox::SandboxError;
 use std::cell::RefCell;
 
 /// What every answer must reach. px.

@@ -59,7 +59,6 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &soft::DENT,
     &soft::SLOPE,
     &soft::CELLS,
-    &soft::PEERS,
     &soft::RESPACING,
     &soft::FATES,
     &soft::GROWTH,

@@ -65,7 +65,11 @@ pub fn claims(one: &Done) -> Vec<String> {
     let mut out: Vec<String> = judged
         .filter(|(_, finding)| !finding.holds)
         .map(|(claim, finding)| {
-            format!("{id}: does not hold: {}: {}", claim.says, finding.measured)
+            format!(
+                "{id}: does not hold: {}: {}",
+                claim.says(),
+                finding.measured
+            )
         })
         .collect();
     let mut bare = one.record.clone();
@@ -73,7 +77,7 @@ pub fn claims(one: &Done) -> Vec<String> {
     for claim in one.experiment.claims {
         match idle(claim, &bare) {
             Ok(idle) => out.extend(idle.iter().map(|what| format!("{id}: {what}"))),
-            Err(reason) => out.push(format!("{id}: {}: {reason}", claim.says)),
+            Err(reason) => out.push(format!("{id}: {}: {reason}", claim.says())),
         }
     }
     out

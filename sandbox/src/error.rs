@@ -26,18 +26,21 @@ pub enum SandboxError {
     /// A claim or a drawing asks for something the run did not record.
     #[error("the record has no {kind} called {name}")]
     NotRecorded {
-        /// Number, table, column or grid.
+        /// Number, table, column, grid or run.
         kind: &'static str,
         /// Its name.
         name: String,
     },
-    /// A crate below refused what the experiment asked of it.
+    /// A crate below refused what an experiment asked of it, in that crate's words.
+    #[error("{0}")]
+    Refused(String),
+    /// Something went wrong in an experiment.
     #[error("{experiment}: {reason}")]
-    Refused {
-        /// What was being done.
+    In {
+        /// Which.
         experiment: &'static str,
-        /// The refusal in the words of the crate below.
-        reason: String,
+        /// What.
+        reason: Box<Self>,
     },
     /// An experiment that is not one of those asked among.
     #[error("--only must be one of {known}, got {id}")]
@@ -52,12 +55,33 @@ pub enum SandboxError {
     Draw(#[from] DrawError),
 }
 
-impl SandboxError {
-    /// A refusal from below, with what was being done.
-    pub(crate) fn refused<E: std::fmt::Display>(experiment: &'static str) -> impl Fn(E) -> Self {
-        move |reason| Self::Refused {
-            experiment,
-            reason: reason.to_string(),
-        }
-    }
+/// What experiments return; a record unless something else is named.
+pub type Result<T = crate::Record, E = SandboxError> = std::result::Result<T, E>;
+
+/// A refusal in words.
+pub fn refused(reason: impl std::fmt::Display) -> SandboxError {
+    SandboxError::Refused(reason.to_string())
 }
+
+/// Errors of the crates below become refusals.
+macro_rules! refusals {
+    ($($error:ty),*) => {
+        $(impl From<$error> for SandboxError {
+            fn from(error: $error) -> Self {
+                refused(error)
+            }
+        })*
+    };
+}
+
+refusals!(
+    banded::BandedError,
+    elastic::ElasticError,
+    field::FieldError,
+    integrator::Fault,
+    integrator::SchemeError,
+    outline::OutlineError,
+    scene::SceneError,
+    snake::SimulationError,
+    snake::SnakeError
+);

@@ -4,7 +4,8 @@
 //! compared, `ID.tolerances.csv` the tolerances of the columns of these tables. A tolerance of the
 //! program that is not the one in the file is a move: nobody widens it unseen.
 
-use crate::record::{quoted, shortest};
+use crate::record::quoted;
+use crate::table::shortest;
 use crate::{Column, Experiment, Folder, Record, SandboxError, Table, Tolerance};
 use std::path::{Path, PathBuf};
 
@@ -154,7 +155,7 @@ fn compare_numbers(record: &Record, text: &str) -> Vec<String> {
         }
         let tolerance = number.tolerance.to_string();
         for (what, own, file) in [
-            ("unit", number.unit, cell(2)),
+            ("unit", number.unit.as_str(), cell(2)),
             ("tolerance", tolerance.as_str(), cell(3)),
         ] {
             if own != file {
@@ -237,7 +238,7 @@ mod tests {
     use super::*;
 
     fn check(values: &[f64], text: &str) -> Vec<String> {
-        let table = Table::new("t").with("x", "px", Tolerance::Absolute(0.5), values.to_vec());
+        let table = Table::new("t").with("x [px]", 0.5, values.to_vec());
         compare_table(&table, text)
     }
 
@@ -265,7 +266,7 @@ mod tests {
     #[test]
     fn names_with_commas_are_quoted_and_found_again() {
         let mut record = Record::default();
-        record.note("rope, snake: period", 8.0, "s", Tolerance::Absolute(0.1));
+        record.note("rope, snake: period [s]", 8.0, 0.1);
         let text = record.numbers_csv();
         assert!(text.contains("\"rope, snake: period\",8,s,"), "{text}");
         assert!(compare_numbers(&record, &text).is_empty());
@@ -274,8 +275,8 @@ mod tests {
     #[test]
     fn numbers_that_come_and_go_are_moves() {
         let mut record = Record::default();
-        record.note("a", 1.0, "", Tolerance::EXACT);
-        record.note("b", 2.0, "px", Tolerance::Absolute(0.1));
+        record.note("a", 1.0, 0.0);
+        record.note("b [px]", 2.0, 0.1);
         let text = "quantity,value,unit,tolerance\nb,3,px,0.1\nc,1,,0\n";
         let moved = compare_numbers(&record, text);
         assert_eq!(
@@ -287,7 +288,7 @@ mod tests {
     #[test]
     fn a_unit_or_a_tolerance_that_is_not_the_files_is_a_move() {
         let mut record = Record::default();
-        record.note("a", 1.0, "px", Tolerance::Absolute(5.0));
+        record.note("a [px]", 1.0, 5.0);
         let of = |text: &str| {
             compare_numbers(&record, &format!("quantity,value,unit,tolerance\n{text}\n"))
         };
@@ -304,11 +305,7 @@ mod tests {
     fn what_is_not_finite_and_what_is_blank_is_told() {
         assert_eq!(check(&[f64::NAN], "x [px]\nNaN\n").len(), 1);
         assert_eq!(check(&[f64::INFINITY], "x [px]\ninf\n").len(), 1);
-        let table = |short: Vec<f64>| {
-            Table::new("t")
-                .with("x", "", Tolerance::EXACT, vec![1.0, 2.0])
-                .with("y", "", Tolerance::EXACT, short)
-        };
+        let table = |short: Vec<f64>| Table::new("t").exact("x", vec![1.0, 2.0]).exact("y", short);
         assert!(compare_table(&table(vec![3.0]), "x,y\n1,3\n2,\n").is_empty());
         assert_eq!(
             compare_table(&table(vec![3.0]), "x,y\n1,3\n2,4\n"),
@@ -324,7 +321,7 @@ mod tests {
     fn the_tolerances_of_a_table_have_a_file_of_their_own() {
         let record = |tolerance| {
             let mut record = Record::default();
-            record.keep(Table::new("t").with("x", "px", tolerance, vec![1.0]));
+            record.keep(Table::new("t").with("x [px]", tolerance, vec![1.0]));
             record
         };
         let written = files("id", &record(Tolerance::Absolute(0.5)));

@@ -41,9 +41,9 @@ pub fn gallery(done: &[Done]) -> String {
             let _ = writeln!(
                 out,
                 "| {} | {} | {} | {} |",
-                cell(claim.says),
+                cell(claim.says()),
                 cell(&finding.measured),
-                cell(claim.source),
+                cell(claim.source()),
                 if finding.holds {
                     "holds"
                 } else {
@@ -62,5 +62,5 @@ pub fn gallery(done: &[Done]) -> String {
 }
 
 fn cell(text: &str) -> String {
-    text.replace('|', "\\|")
+    text.replace('|', "\\|").replace('*', "\\*")
 }

@@ -2,9 +2,9 @@
 //! claims, and a picture.
 //!
 //! ```text
-//! Experiment ── run ──▶ Record (numbers, tables, grids) ──┬── claims ──▶ findings
-//!                                                         ├── expected/*.csv
-//!                                                         └── draw ──▶ SVG, GIF
+//! Experiment ── run ──▶ Record (numbers, tables, grids, runs) ──┬── claims ──▶ findings
+//!                                                               ├── expected/*.csv
+//!                                                               └── draw ──▶ SVG, GIF
 //! ```
 //!
 //! Running and drawing are two functions, and drawing sees the record only. `figures --check` holds
@@ -16,6 +16,7 @@
 
 mod catalogue;
 mod check;
+mod course;
 mod demand;
 pub mod draw;
 mod error;
@@ -24,8 +25,13 @@ mod experiment;
 mod experiments;
 mod folder;
 mod gallery;
+mod numbers;
 mod page;
+pub mod prelude;
 mod record;
+mod run;
+mod shown;
+mod table;
 mod tolerance;
 mod verdict;
 mod work;
@@ -34,16 +40,13 @@ pub use catalogue::{EXPERIMENTS, find};
 pub use check::{Committed, claims, faults};
 pub use error::SandboxError;
 pub use expected::{Moved, accept, compare, expected_folder};
-pub use experiment::{Artefact, Body, Claim, Experiment, Finding};
+pub use experiment::{Artefact, Body, Claim, Experiment, Finding, claim};
 pub use experiments::atlas::ATLAS;
-pub use experiments::integrators::{
-    Care, Effort, INTEGRATORS, INTEGRATORS_IN_SHORT, NODES, Stopwatch, Trial, apple, coarsest,
-    edge, effort, least_steps, ring, scan, wall,
-};
 pub use folder::Folder;
 pub use gallery::gallery;
 pub use page::page;
-pub use record::{Column, Number, Read, Record, Table};
+pub use record::{Number, Read, Record};
+pub use table::{Column, Table};
 pub use tolerance::Tolerance;
 pub use work::{Done, Drawn, committed_folder, perform, perform_all};
 

@@ -4,12 +4,9 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use sandbox::{
-    ATLAS, Committed, Done, EXPERIMENTS, Experiment, Folder, INTEGRATORS, INTEGRATORS_IN_SHORT,
-    SandboxError, accept, claims, committed_folder, expected_folder, faults, find, gallery, page,
-    perform, perform_all,
+    ATLAS, Committed, Done, EXPERIMENTS, Experiment, Folder, SandboxError, accept, claims,
+    committed_folder, expected_folder, faults, find, gallery, page, perform, perform_all,
 };
-use scene::Scene;
-use snake::Certificate;
 use std::fmt::Arguments;
 use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
@@ -74,19 +71,6 @@ enum What {
         #[arg(long, value_name = "ID", value_parser = ids(ATLAS), hide_possible_values = true)]
         only: Vec<String>,
     },
-    /// Work against precision of every scheme, with tables and a page; takes a few minutes
-    Integrators {
-        #[command(flatten)]
-        place: Place,
-        /// Only this one; may be given more than once
-        #[arg(long, value_name = "ID", value_parser = ids(INTEGRATORS), hide_possible_values = true)]
-        only: Vec<String>,
-    },
-    /// Say what is known of a scene before it moves: frequencies, largest steps, time to rest
-    Certificate {
-        /// A shipped scene's name, or a file
-        scene: PathBuf,
-    },
     /// Make every figure, from nothing, with an index page to look through
     Figures(Figures),
 }
@@ -140,9 +124,7 @@ fn main() -> ExitCode {
             Ok(true)
         }
         What::Run { id, out } => run(&id, out.as_deref()),
-        What::Atlas { place, only } => one_by_one(ATLAS, &place, &only),
-        What::Integrators { place, only } => one_by_one(INTEGRATORS, &place, &only),
-        What::Certificate { scene } => certificate(&scene),
+        What::Atlas { place, only } => atlas(&place, &only),
         What::Figures(asked) => figures(&asked),
     };
     ended(match result {
@@ -195,15 +177,11 @@ fn run(id: &str, out: Option<&Path>) -> Result<bool, SandboxError> {
     Ok(done.holds())
 }
 
-/// Experiments of one kind, one after the other so that times are not disturbed, with their page.
-fn one_by_one(
-    all: &[&'static Experiment],
-    place: &Place,
-    only: &[String],
-) -> Result<bool, SandboxError> {
+/// The atlas, one experiment after the other, with its page.
+fn atlas(place: &Place, only: &[String]) -> Result<bool, SandboxError> {
     let folder = Folder::open(&place.out)?;
     let asked = |id: &str| only.is_empty() || only.iter().any(|only| only == id);
-    let chosen: Vec<_> = all.iter().copied().filter(|one| asked(one.id)).collect();
+    let chosen: Vec<_> = ATLAS.iter().copied().filter(|one| asked(one.id)).collect();
     let bar = ProgressBar::new(u64::try_from(chosen.len()).unwrap_or(0));
     if let Ok(style) =
         ProgressStyle::with_template("{spinner} {bar:40} {pos}/{len} {msg} {elapsed}")
@@ -230,29 +208,6 @@ fn one_by_one(
     Ok(done.iter().all(Done::holds))
 }
 
-/// What a scene's snake can be said to do, from its start and in its picture.
-fn certificate(path: &Path) -> Result<bool, SandboxError> {
-    let file = path.extension().is_some() || path.components().count() > 1;
-    let scene = match path.to_str() {
-        Some(name) if !file => Scene::named(name),
-        _ => Scene::load(path),
-    };
-    let scene = scene.map_err(|error| SandboxError::Refused {
-        experiment: "certificate",
-        reason: error.to_string(),
-    })?;
-    println!("{}", scene.title);
-    print!("{}", Certificate::of(&scene.of_the_run(), None));
-    let here = Certificate::of(&scene.snake, Some(&scene.start));
-    if scene.picture.is_some() {
-        println!(
-            "at the start alone, highest frequency of the image: {:.6}",
-            here.image
-        );
-    }
-    Ok(true)
-}
-
 fn tell(done: &Done) {
     for (claim, finding) in done.experiment.claims.iter().zip(&done.findings) {
         let verdict = if finding.holds {
@@ -262,7 +217,9 @@ fn tell(done: &Done) {
         };
         println!(
             "{verdict}: {} ({}): {}",
-            claim.says, claim.source, finding.measured
+            claim.says(),
+            claim.source(),
+            finding.measured
         );
     }
 }
@@ -302,7 +259,7 @@ fn figures(asked: &Figures) -> Result<bool, SandboxError> {
             write(&folder, &done, whole)?;
             faults.len()
         }
-        None => check(&done, whole)?,
+        None => check(&done, whole),
     };
     let claims: usize = done.iter().map(|one| one.findings.len()).sum();
     let verdict = match wrong {
@@ -313,19 +270,11 @@ fn figures(asked: &Figures) -> Result<bool, SandboxError> {
     Ok(wrong == 0)
 }
 
-/// Tells and counts what is wrong with the experiments, and with the whole catalogue also with
-/// those that compare schemes, in their short form.
-fn check(done: &[Done], whole: bool) -> Result<usize, SandboxError> {
-    let mut faults = faults(done, &Committed::here(), whole);
-    if whole {
-        for one in perform_all(INTEGRATORS_IN_SHORT, &|_| {})? {
-            faults.extend(claims(&one));
-        }
-    }
-    for fault in &faults {
-        println!("{fault}");
-    }
-    Ok(faults.len())
+/// Tells and counts what is wrong with the experiments.
+fn check(done: &[Done], whole: bool) -> usize {
+    let faults = faults(done, &Committed::here(), whole);
+    faults.iter().for_each(|fault| println!("{fault}"));
+    faults.len()
 }
 
 fn write(folder: &Folder, done: &[Done], all: bool) -> Result<(), SandboxError> {
@@ -355,9 +304,8 @@ fn write_drawings(folder: &Folder, done: &Done) -> Result<(), SandboxError> {
 }
 
 fn write_tables(folder: &Folder, done: &Done) -> Result<(), SandboxError> {
-    let id = done.experiment.id;
-    folder.write(&format!("{id}.csv"), done.record.numbers_csv().as_bytes())?;
-    done.record.tables.iter().try_for_each(|table| {
-        folder.write(&format!("{id}.{}.csv", table.name), table.csv().as_bytes())
-    })
+    let files = done.record.files(done.experiment.id);
+    files
+        .iter()
+        .try_for_each(|(name, text)| folder.write(name, text.as_bytes()))
 }

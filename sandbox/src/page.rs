@@ -70,14 +70,14 @@ fn section(out: &mut String, one: &Done) {
             out,
             "<tr><td>{}</td><td>{}</td><td class=\"measured\">{}</td><td class=\"source\">{}</td></tr>",
             mark(finding.holds),
-            escape(claim.says),
+            escape(claim.says()),
             escape(&finding.measured),
-            escape(claim.source)
+            escape(claim.source())
         );
     }
     out.push_str("</table>\n<p class=\"numbers\">Numbers: ");
-    for file in csv_files(one) {
-        let _ = write!(out, "<a href=\"{}\">{}</a>", file.0, file.0);
+    for (file, _) in one.record.files(experiment.id) {
+        let _ = write!(out, "<a href=\"{file}\">{file}</a>");
     }
     out.push_str("</p>\n</section>\n");
 }
@@ -88,16 +88,6 @@ fn mark(holds: bool) -> &'static str {
     } else {
         "<span class=\"mark no\" title=\"does not hold\">✗</span>"
     }
-}
-
-/// The tables of an experiment as files: name and text.
-pub(crate) fn csv_files(one: &Done) -> Vec<(String, String)> {
-    let id = one.experiment.id;
-    let mut out = vec![(format!("{id}.csv"), one.record.numbers_csv())];
-    for table in &one.record.tables {
-        out.push((format!("{id}.{}.csv", table.name), table.csv()));
-    }
-    out
 }
 
 fn escape(text: &str) -> String {

@@ -1,6 +1,11 @@
-//! What a run leaves behind: single numbers, tables, grids. Everything a claim or a drawing needs.
+//! What a run leaves behind: single numbers, tables, grids, runs. All that a claim or a drawing
+//! needs.
 
-use crate::{SandboxError, Tolerance};
+use crate::run::Run;
+use crate::table::{name_and_unit, shortest};
+use crate::tolerance::EXACT;
+use crate::{SandboxError, Table, Tolerance};
+use glam::DVec2;
 use ndarray::Array2;
 use std::cell::RefCell;
 use std::fmt::Write;
@@ -13,118 +18,9 @@ pub struct Number {
     /// How much.
     pub value: f64,
     /// Its unit; empty for a pure number.
-    pub unit: &'static str,
+    pub unit: String,
     /// How far it may move.
     pub tolerance: Tolerance,
-}
-
-/// One column of a table.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Column {
-    /// What it is.
-    pub name: String,
-    /// Its unit; empty for pure numbers.
-    pub unit: &'static str,
-    /// How far each value may move.
-    pub tolerance: Tolerance,
-    /// From top to bottom.
-    pub values: Vec<f64>,
-}
-
-/// Columns of equal length under one name.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Table {
-    /// Its name, a part of the file's.
-    pub name: &'static str,
-    /// From left to right.
-    pub columns: Vec<Column>,
-    /// Whether it is compared with `expected/`; long ones are only written out.
-    pub compared: bool,
-}
-
-impl Table {
-    /// A table without columns, to be compared with `expected/`.
-    #[must_use]
-    pub fn new(name: &'static str) -> Self {
-        Self {
-            name,
-            columns: Vec::new(),
-            compared: true,
-        }
-    }
-
-    /// A table that is written out but not compared: too long to be read by anyone.
-    #[must_use]
-    pub fn raw(name: &'static str) -> Self {
-        Self {
-            compared: false,
-            ..Self::new(name)
-        }
-    }
-
-    /// The same table with one more column at the right.
-    #[must_use]
-    pub fn with(
-        mut self,
-        name: impl Into<String>,
-        unit: &'static str,
-        tolerance: Tolerance,
-        values: Vec<f64>,
-    ) -> Self {
-        self.columns.push(Column {
-            name: name.into(),
-            unit,
-            tolerance,
-            values,
-        });
-        self
-    }
-
-    /// The table as CSV: a header with units in brackets, shortest digits that read back the same.
-    #[must_use]
-    pub fn csv(&self) -> String {
-        let mut out = String::new();
-        let heads: Vec<String> = self
-            .columns
-            .iter()
-            .map(|column| match column.unit {
-                "" => column.name.clone(),
-                unit => format!("{} [{unit}]", column.name),
-            })
-            .collect();
-        let _ = writeln!(out, "{}", heads.join(","));
-        let rows = self
-            .columns
-            .iter()
-            .map(|column| column.values.len())
-            .max()
-            .unwrap_or(0);
-        for row in 0..rows {
-            let cells: Vec<String> = self
-                .columns
-                .iter()
-                .map(|column| {
-                    column
-                        .values
-                        .get(row)
-                        .copied()
-                        .map_or(String::new(), shortest)
-                })
-                .collect();
-            let _ = writeln!(out, "{}", cells.join(","));
-        }
-        out
-    }
-}
-
-/// The shortest digits that read back as the same number.
-pub(crate) fn shortest(value: f64) -> String {
-    let size = value.abs();
-    if value != 0.0 && value.is_finite() && !(1e-4..1e15).contains(&size) {
-        format!("{value:e}")
-    } else {
-        format!("{value}")
-    }
 }
 
 /// What a judge asked a record for.
@@ -154,8 +50,25 @@ pub struct Record {
     pub tables: Vec<Table>,
     /// Grids for drawing: pictures and fields.
     pub grids: Vec<(String, Array2<f64>)>,
+    /// Runs for drawing: curves and energies.
+    pub runs: Vec<(String, Run)>,
     /// What was asked of it since [`Record::read_by`] began to listen.
     reads: RefCell<Vec<Read>>,
+}
+
+/// Notes of one of several cases.
+#[derive(Debug)]
+pub struct Notes<'a> {
+    record: &'a mut Record,
+    case: String,
+}
+
+impl Notes<'_> {
+    /// As [`Record::note`], of this case.
+    pub fn note(&mut self, name: &str, value: f64, tolerance: impl Into<Tolerance>) {
+        let name = format!("{}: {name}", self.case);
+        self.record.note(name, value, tolerance);
+    }
 }
 
 impl Record {
@@ -173,20 +86,21 @@ impl Record {
         (answer, reads)
     }
 
-    /// Notes a number.
-    pub fn note(
-        &mut self,
-        name: impl Into<String>,
-        value: f64,
-        unit: &'static str,
-        tolerance: Tolerance,
-    ) {
+    /// Notes a number. Its unit stands in brackets behind its name: `"way [px]"`.
+    pub fn note(&mut self, name: impl Into<String>, value: f64, tolerance: impl Into<Tolerance>) {
+        let (name, unit) = name_and_unit(name.into());
         self.numbers.push(Number {
-            name: name.into(),
+            name,
             value,
             unit,
-            tolerance,
+            tolerance: tolerance.into(),
         });
+    }
+
+    /// Notes of one of several cases: each name behind that of the case and a colon.
+    pub fn under(&mut self, case: impl std::fmt::Display) -> Notes<'_> {
+        let case = case.to_string();
+        Notes { record: self, case }
     }
 
     /// Keeps a table.
@@ -197,6 +111,16 @@ impl Record {
     /// Keeps a grid.
     pub fn keep_grid(&mut self, name: impl Into<String>, grid: Array2<f64>) {
         self.grids.push((name.into(), grid));
+    }
+
+    /// Keeps points as a table that is not compared.
+    pub fn keep_points(&mut self, name: &'static str, points: &[DVec2]) {
+        self.keep(Table::raw(name).xy("px", EXACT, points));
+    }
+
+    /// Keeps a run.
+    pub fn keep_run(&mut self, name: impl Into<String>, run: impl Into<Run>) {
+        self.runs.push((name.into(), run.into()));
     }
 
     /// A number to judge by.
@@ -263,6 +187,27 @@ impl Record {
         Ok(x.iter().copied().zip(y.iter().copied()).collect())
     }
 
+    /// The columns x and y of a table as points.
+    ///
+    /// # Errors
+    ///
+    /// As [`Record::column`].
+    pub fn xy(&self, table: &str) -> Result<Vec<(f64, f64)>, SandboxError> {
+        self.points(table, "x", "y")
+    }
+
+    /// A run by its name.
+    ///
+    /// # Errors
+    ///
+    /// When it was not kept.
+    pub fn run(&self, name: &str) -> Result<&Run, SandboxError> {
+        let found = self.runs.iter().find(|(kept, _)| kept == name);
+        found
+            .map(|(_, run)| run)
+            .ok_or_else(|| missing("run", name))
+    }
+
     /// A grid by its name.
     ///
     /// # Errors
@@ -273,6 +218,18 @@ impl Record {
         found
             .map(|(_, grid)| grid)
             .ok_or_else(|| missing("grid", name))
+    }
+
+    /// All of it but the grids as files of an experiment: name and text.
+    #[must_use]
+    pub fn files(&self, id: &str) -> Vec<(String, String)> {
+        let numbers = (format!("{id}.csv"), self.numbers_csv());
+        let slug = |name: &str| name.replace(|c: char| !c.is_ascii_alphanumeric() && c != '-', "-");
+        let tables = self.tables.iter();
+        let tables = tables.map(|table| (format!("{id}.{}.csv", slug(table.name)), table.csv()));
+        let runs = self.runs.iter();
+        let runs = runs.map(|(name, run)| (format!("{id}.{}.run.csv", slug(name)), run.csv()));
+        std::iter::once(numbers).chain(tables).chain(runs).collect()
     }
 
     /// The single numbers as CSV with their tolerances.
@@ -309,20 +266,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_table_is_written_with_units_and_digits_that_read_back() {
-        let table = Table::new("t")
-            .with("x", "px", Tolerance::EXACT, vec![1.0, 2.0])
-            .with("f", "", Tolerance::ROUNDING, vec![0.1 + 0.2, 1e-300]);
-        assert_eq!(table.csv(), "x [px],f\n1,0.30000000000000004\n2,1e-300\n");
-    }
-
-    #[test]
     fn what_a_judge_reads_is_known_and_nan_is_no_answer() {
         let mut record = Record::default();
-        record.note("a", 1.0, "", Tolerance::EXACT);
-        record.note("b", 2.0, "", Tolerance::EXACT);
-        record.note("lost", f64::NAN, "", Tolerance::EXACT);
-        record.keep(Table::new("t").with("x", "", Tolerance::EXACT, vec![3.0]));
+        record.note("a", 1.0, EXACT);
+        record.note("b", 2.0, EXACT);
+        record.note("lost", f64::NAN, EXACT);
+        record.keep(Table::new("t").exact("x", vec![3.0]));
         let (sum, reads) = record.read_by(|r| -> Result<f64, SandboxError> {
             Ok(r.number("a")? + r.number("a")? + r.column("t", "x")?[0] + r.told("b")?)
         });

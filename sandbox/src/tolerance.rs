@@ -1,6 +1,6 @@
 //! How far a number may move.
 
-use crate::record::shortest;
+use crate::table::shortest;
 
 /// How far a number may stray from the expected one before `figures --check` says it moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,12 +14,24 @@ pub enum Tolerance {
     RelativeOrInfinite(f64),
 }
 
-impl Tolerance {
-    /// For counts, yes and no.
-    pub const EXACT: Self = Self::Absolute(0.0);
-    /// For results of a few thousand operations: rounding, and the last bits of a foreign `sin`.
-    pub const ROUNDING: Self = Self::Absolute(1e-9);
+/// For counts, yes and no.
+pub const EXACT: f64 = 0.0;
+/// For results of a few thousand operations: rounding, and the last bits of a foreign `sin`.
+pub const ROUNDING: f64 = 1e-9;
 
+/// At most this share of the expected number.
+#[must_use]
+pub const fn share(of: f64) -> Tolerance {
+    Tolerance::Relative(of)
+}
+
+impl From<f64> for Tolerance {
+    fn from(most: f64) -> Self {
+        Self::Absolute(most)
+    }
+}
+
+impl Tolerance {
     /// Whether `value` is close enough to `expected`. NaN is close to nothing; an infinite number
     /// only to itself, and only under [`Tolerance::RelativeOrInfinite`].
     #[must_use]
@@ -70,7 +82,7 @@ mod tests {
         assert!(Tolerance::Absolute(0.1).allows(1.05, 1.0));
         assert!(!Tolerance::Absolute(0.1).allows(1.2, 1.0));
         assert!(Tolerance::Relative(0.1).allows(109.0, 100.0));
-        assert!(!Tolerance::EXACT.allows(1.0 + f64::EPSILON, 1.0));
+        assert!(!Tolerance::from(EXACT).allows(1.0 + f64::EPSILON, 1.0));
         assert!(!Tolerance::Absolute(1.0).allows(f64::INFINITY, 1.0));
     }
 
@@ -78,7 +90,7 @@ mod tests {
     fn what_is_not_finite_is_not_silently_the_same() {
         let never = f64::INFINITY;
         for tolerance in [
-            Tolerance::EXACT,
+            Tolerance::from(EXACT),
             Tolerance::Absolute(1.0),
             Tolerance::Relative(1.0),
             Tolerance::RelativeOrInfinite(1.0),

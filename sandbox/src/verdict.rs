@@ -13,10 +13,10 @@ use crate::{Claim, Read, Record, SandboxError, Tolerance};
 ///
 /// When the judge asks for what was not recorded.
 pub(crate) fn idle(claim: &Claim, record: &Record) -> Result<Vec<String>, SandboxError> {
-    let (finding, reads) = record.read_by(claim.judge);
+    let (finding, reads) = record.read_by(|record| claim.judge(record));
     let holds = finding?.holds;
     if reads.is_empty() {
-        return Ok(vec![format!("{:?} reads no number", claim.says)]);
+        return Ok(vec![format!("{:?} reads no number", claim.says())]);
     }
     // grids are for drawing; without them a copy is cheap
     let mut moved = record.clone();
@@ -30,7 +30,7 @@ pub(crate) fn idle(claim: &Claim, record: &Record) -> Result<Vec<String>, Sandbo
     }
     Ok(idle
         .iter()
-        .map(|read| format!("{:?} does not depend on {read}", claim.says))
+        .map(|read| format!("{:?} does not depend on {read}", claim.says()))
         .collect())
 }
 
@@ -38,7 +38,9 @@ pub(crate) fn idle(claim: &Claim, record: &Record) -> Result<Vec<String>, Sandbo
 fn flips(claim: &Claim, holds: bool, reads: &[&Read], record: &Record, moved: &mut Record) -> bool {
     let differs = |moved: &Record| {
         // a judge that refuses what it finds has noticed it
-        (claim.judge)(moved).map_or(true, |finding| finding.holds != holds)
+        claim
+            .judge(moved)
+            .map_or(true, |finding| finding.holds != holds)
     };
     let infinite = reads.iter().any(|read| may_be_infinite(record, read));
     let last = infinite.then_some(Move::To(f64::INFINITY));
@@ -147,23 +149,39 @@ fn apply(by: Move, read: &Read, record: &Record, moved: &mut Record, row: Option
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Finding, Table};
+    use crate::demand::{above, below, falling, less};
+    use crate::{Finding, Table, claim};
 
     fn record() -> Record {
         let mut record = Record::default();
-        record.note("a", 1.0, "px", Tolerance::EXACT);
-        record.note("b", 2.0, "px", Tolerance::EXACT);
-        record.keep(Table::new("t").with("x", "", Tolerance::EXACT, vec![1.0, 5.0, 2.0]));
+        record.note("a [px]", 1.0, 0.0);
+        record.note("b [px]", 2.0, 0.0);
+        record.keep(Table::new("t").exact("x", [1.0, 5.0, 2.0]));
         record
     }
 
     fn found(judge: fn(&Record) -> Result<Finding, SandboxError>) -> Vec<String> {
-        let claim = Claim {
-            says: "it is so",
-            source: "a test",
-            judge,
-        };
-        idle(&claim, &record()).unwrap()
+        idle(&claim("it is so [a test]").judged(judge), &record()).unwrap()
+    }
+
+    #[test]
+    fn demands_are_found_out_as_code_is() {
+        const SOUND: Claim = claim("it is so").when(&[
+            below("a", 3.0),
+            less("a", 1.0, "b"),
+            above("x @ t", 0.5),
+            falling("x @ t"),
+        ]);
+        const FREE: Claim = claim("it is so").when(&[below("a", 1e9)]);
+        const HALF: Claim = claim("it is so").when(&[below("a", 3.0), below("b", 1e9)]);
+        const EMPTY: Claim = claim("it is so").when(&[]);
+        let record = record();
+        assert!(!SOUND.judge(&record).unwrap().holds); // the rows do not fall
+        for (claim, faults) in [(FREE, 1), (HALF, 1), (EMPTY, 1)] {
+            assert_eq!(idle(&claim, &record).unwrap().len(), faults);
+        }
+        const HOLDS: Claim = claim("it is so").when(&[below("a", 3.0), above("x @ t", 0.5)]);
+        assert!(idle(&HOLDS, &record).unwrap().is_empty());
     }
 
     #[test]

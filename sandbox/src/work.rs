@@ -56,12 +56,19 @@ pub fn committed_folder() -> PathBuf {
 /// When a crate below refuses what the experiment asks, or a claim or drawing asks for something
 /// that was not recorded.
 pub fn perform(experiment: &'static Experiment) -> Result<Done, SandboxError> {
+    performed(experiment).map_err(|reason| SandboxError::In {
+        experiment: experiment.id,
+        reason: Box::new(reason),
+    })
+}
+
+fn performed(experiment: &'static Experiment) -> Result<Done, SandboxError> {
     let start = Instant::now();
     let record = (experiment.run)()?;
     let findings = experiment
         .claims
         .iter()
-        .map(|claim| (claim.judge)(&record))
+        .map(|claim| claim.judge(&record))
         .collect::<Result<Vec<Finding>, SandboxError>>()?;
     let drawings = (experiment.draw)(&record)?
         .iter()

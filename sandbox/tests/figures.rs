@@ -132,11 +132,7 @@ fn a_claim_that_cannot_fail_and_one_that_does_not_hold_are_faults() {
         record.number(record.numbers[0].name.as_str())?;
         Ok(sandbox::Finding::new(true, "whatever it is"))
     }
-    static CLAIMS: [sandbox::Claim; 1] = [sandbox::Claim {
-        says: "it is so",
-        source: "a test",
-        judge: idle,
-    }];
+    static CLAIMS: [sandbox::Claim; 1] = [sandbox::claim("it is so [a test]").judged(idle)];
     let experiment: &'static Experiment = Box::leak(Box::new(Experiment {
         claims: &CLAIMS,
         ..*find(ID).unwrap()

@@ -15,9 +15,13 @@ mod frame;
 mod legend;
 mod palette;
 mod panel;
+mod pixels;
 mod raster;
+mod short;
 
 pub use animation::{Animation, Shot, Stroke};
 pub use figure::{DrawError, Figure, Row};
 pub use palette::{Color, diverging, sequential};
 pub use panel::{Axis, Corner, Dash, Layer, Line, Panel, Picture, Scale};
+pub use pixels::{arrows, grey, shrunk, signed, strongest_arrows};
+pub use short::{Dots, area, arrow, circle, dots, line, plot, text};

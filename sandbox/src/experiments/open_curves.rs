@@ -1,14 +1,7 @@
 //! Open curves: tips that grow along a road, ends that slide on the border.
 
-use super::motion::{changed_scene, to_the_end};
-use super::pixels::grey;
-use super::soft::{keep_shots, shots, times};
-use crate::demand::{above, below, judged};
-use crate::draw::{Axis, Color, Corner, Figure, Layer, Line, Panel, Picture};
-use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
-use glam::DVec2;
+use crate::prelude::*;
 
-const ID: &str = "open-curves";
 /// The middle of the road in the scene of that name.
 const ROAD: [(f64, f64); 14] = [
     (-10.0, 96.0),
@@ -26,76 +19,41 @@ const ROAD: [(f64, f64); 14] = [
     (150.0, 28.4),
     (160.0, 28.0),
 ];
-const ENDS: [(&str, &str, &str); 4] = [
-    ("border", "strip-border", "\"border\", tail = \"border\""),
-    ("free", "strip-free", "\"free\", tail = \"free\""),
-    ("pinned", "strip-pinned", "\"pinned\", tail = \"pinned\""),
-    (
-        "clamped",
-        "strip-clamped",
-        "\"clamped\", tail = \"clamped\"",
-    ),
-];
+const ENDS: [&str; 4] = ["border", "free", "pinned", "clamped"];
 
 /// A road and a strip.
 pub(crate) const OPEN_CURVES: Experiment = Experiment {
-    id: ID,
+    id: "open-curves",
     title: "Ends that grow, slide and hold",
     place: "beyond",
     question: "An open snake lies on a short stretch of a noisy road: do tips that grow along the ridge find the rest of it, and stop where it ends? \
                And a strip askew of an edge from side to side: what do its ends do under each rule?",
     claims: &[
-        Claim {
-            says: "from 20 px of it the tips find the whole road, within a pixel of its middle",
-            source: "tips",
-            judge: |r| {
-                judged(
-                    r,
-                    &[
-                        above("growing: share of the road found", 0.95),
-                        below("growing: rms distance from its middle", 1.0),
-                    ],
-                )
-            },
-        },
-        Claim {
-            says: "the tip inside the picture stops where the road ends, the other at the border",
-            source: "tips",
-            judge: |r| {
-                judged(
-                    r,
-                    &[
-                        below("growing: tail from the end of the road", 5.0),
-                        below("growing: head from the border", 5.0),
-                    ],
-                )
-            },
-        },
-        Claim {
-            says: "without growth the same snake stays on its stretch",
-            source: "tips",
-            judge: |r| judged(r, &[below("not growing: share of the road found", 0.2)]),
-        },
-        Claim {
-            says: "ends that slide on the border carry the whole strip to the edge; free ones leave the border, pinned and clamped ones hold theirs off the edge",
-            source: "elastic::Hold",
-            judge: |r| {
-                let (border, pinned) = (
-                    r.number("border: largest distance from the edge")?,
-                    r.number("pinned: largest distance from the edge")?,
-                );
-                let off = r.number("border: ends off the border")?;
-                Ok(Finding::new(
-                    border < 0.1
-                        && pinned > 5.0
-                        && off < 1e-9
-                        && r.number("free: ends off the border")? > 5.0,
-                    format!(
-                        "{border:.3} px at most, on the border to {off:.0e}; pinned {pinned:.1} px"
-                    ),
-                ))
-            },
-        },
+        claim("from 20 px of it the tips find the whole road, within a pixel of its middle [tips]")
+            .when(&[
+                above("growing: share of the road found", 0.95),
+                below("growing: rms distance from its middle", 1.0),
+            ]),
+        claim(
+            "the tip inside the picture stops where the road ends, the other at the border [tips]",
+        )
+        .when(&[
+            below("growing: tail from the end of the road", 5.0),
+            below("growing: head from the border", 5.0),
+        ]),
+        claim("without growth the same snake stays on its stretch [tips]")
+            .when(&[below("not growing: share of the road found", 0.2)]),
+        claim(
+            "ends that slide on the border carry the whole strip to the edge; free ones leave the \
+               border, pinned and clamped ones hold theirs off the edge [elastic::Hold]",
+        )
+        .when(&[
+            below("border: largest distance from the edge", 0.1),
+            below("border: ends off the border", 1e-9),
+            above("free: ends off the border", 5.0),
+            above("pinned: largest distance from the edge", 5.0),
+            above("clamped: largest distance from the edge", 5.0),
+        ]),
     ],
     run,
     draw,
@@ -117,198 +75,108 @@ fn from_road(p: DVec2) -> (f64, f64) {
     best
 }
 
-fn run() -> Result<Record, SandboxError> {
+fn run() -> Result {
     let mut record = Record::default();
-    let close = Tolerance::Absolute(0.02);
+    let close = 0.02;
+    let end = DVec2::new(160.0, 28.0);
     // what of the road is in the picture
-    let (from, to) = (10.0, from_road(DVec2::new(160.0, 28.0)).1);
-    for (name, table) in [("growing", "road-growing"), ("not growing", "road-still")] {
-        let mut scene = changed_scene(ID, "road", &[])?;
+    let (from, to) = (10.0, from_road(end).1);
+    for name in ["growing", "not growing"] {
+        let mut scene = scene_with("road", &[])?;
         if name != "growing" {
             scene.tips = None;
         } else if let Some(picture) = &scene.picture {
             record.keep_grid("road", picture.levels().clone());
         }
-        let done = to_the_end(ID, &mut scene)?;
-        let Some(last) = done.frames.last() else {
-            continue;
-        };
-        let nodes = last.nodes();
+        let run = to_the_end(&mut scene)?;
+        let nodes = last(&run);
         let places: Vec<(f64, f64)> = nodes.iter().map(|&p| from_road(p)).collect();
-        let arcs = places.iter().map(|p| p.1);
-        let (low, high) = arcs.fold((f64::INFINITY, 0.0_f64), |(a, b), s| (a.min(s), b.max(s)));
-        let found = (high.min(to) - low.max(from)) / (to - from);
-        let rms = (places.iter().map(|p| p.0 * p.0).sum::<f64>() / real(places.len())).sqrt();
-        record.note(
-            format!("{name}: share of the road found"),
-            found,
-            "",
-            Tolerance::Absolute(1e-3),
-        );
-        record.note(
-            format!("{name}: rms distance from its middle"),
-            rms,
-            "px",
-            close,
-        );
-        record.note(
-            format!("{name}: nodes"),
-            real(nodes.len()),
-            "",
-            Tolerance::EXACT,
-        );
+        let arcs = || places.iter().map(|p| p.1);
+        let found = (most(arcs()).min(to) - least(arcs()).max(from)) / (to - from);
+        let rms = mean(places.iter().map(|p| p.0 * p.0)).sqrt();
         let (head, tail) = (nodes[0], nodes[nodes.len() - 1]);
-        record.note(
-            format!("{name}: tail from the end of the road"),
-            tail.distance(DVec2::new(160.0, 28.0)),
-            "px",
-            close,
-        );
-        record.note(format!("{name}: head from the border"), head.x, "px", close);
-        let mut kept = Vec::new();
-        for frame in &done.frames {
-            kept.push((frame.t, 0, false, frame.nodes().to_vec()));
-        }
-        keep_shots(&mut record, table, &kept);
-        record.keep(
-            Table::raw(if name == "growing" {
-                "off-growing"
-            } else {
-                "off-still"
-            })
-            .with(
-                "arc",
-                "px",
-                Tolerance::EXACT,
-                places.iter().map(|p| p.1).collect(),
-            )
-            .with(
-                "off",
-                "px",
-                Tolerance::EXACT,
-                places.iter().map(|p| p.0).collect(),
-            ),
-        );
+        let mut own = record.under(name);
+        own.note("share of the road found", found, 1e-3);
+        own.note("rms distance from its middle [px]", rms, close);
+        own.note("nodes", real(nodes.len()), EXACT);
+        let short = tail.distance(end);
+        own.note("tail from the end of the road [px]", short, close);
+        own.note("head from the border [px]", head.x, close);
+        let off = Table::raw(name).exact("arc [px]", arcs());
+        record.keep(off.exact("off [px]", places.iter().map(|p| p.0)));
+        record.keep_run(name, &run);
     }
-    for (name, table, words) in ENDS {
-        let mut scene = changed_scene(
-            ID,
+    for name in ENDS {
+        let words = format!("\"{name}\", tail = \"{name}\"");
+        let (scene, run) = ran(
             "sliding-strip",
-            &[("\"border\", tail = \"border\"", words)],
+            &[("\"border\", tail = \"border\"", &words)],
         )?;
-        if name == "border"
-            && let Some(picture) = &scene.picture
-        {
+        if let ("border", Some(picture)) = (name, &scene.picture) {
             record.keep_grid("edge", picture.levels().clone());
         }
-        let done = to_the_end(ID, &mut scene)?;
-        let Some(last) = done.frames.last() else {
-            continue;
-        };
-        let off = last
-            .nodes()
-            .iter()
-            .map(|p| (p.y - 40.0).abs())
-            .fold(0.0, f64::max);
-        record.note(
-            format!("{name}: largest distance from the edge"),
-            off,
-            "px",
-            Tolerance::Relative(0.3),
-        );
-        let n = last.nodes().len();
-        let ends = last.nodes()[0]
+        let nodes = last(&run);
+        let off = most(nodes.iter().map(|p| (p.y - 40.0).abs()));
+        let mut own = record.under(name);
+        own.note("largest distance from the edge [px]", off, share(0.3));
+        let ends = nodes[0]
             .x
             .abs()
-            .max((last.nodes()[n - 1].x - 95.0).abs());
-        let loose = if name == "free" {
-            close
-        } else {
-            Tolerance::ROUNDING
-        };
-        record.note(format!("{name}: ends off the border"), ends, "px", loose);
-        let kept: Vec<_> = done
-            .frames
-            .iter()
-            .step_by(3)
-            .chain(done.frames.last())
-            .map(|f| (f.t, 0, false, f.nodes().to_vec()))
-            .collect();
-        keep_shots(&mut record, table, &kept);
+            .max((nodes[nodes.len() - 1].x - 95.0).abs());
+        let loose = if name == "free" { close } else { ROUNDING };
+        own.note("ends off the border [px]", ends, loose);
+        record.keep_run(name, &run);
     }
     Ok(record)
 }
 
-fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
+fn draw(record: &Record) -> Drawn {
     let mut row = Vec::new();
-    for (table, title) in [
-        ("road-growing", "tips that grow"),
-        ("road-still", "the same without"),
+    let (along, off) = (("along the road / px", 0.0, 215.0), ("px", 0.0, 3.0));
+    let title = "distance of the nodes from the middle of the road";
+    let mut distance = plot(title, along, off);
+    for (name, title, words, color) in [
+        ("growing", "tips that grow", "grown", Color::SKY),
+        ("not growing", "the same without", "not grown", Color::RED),
     ] {
-        let mut panel = Panel::pixels(title, 192, 128)
-            .bare()
-            .with(Picture::new(grey(record.grid("road")?)));
-        let all = shots(record, table)?;
-        let count = all.len();
-        for (k, shot) in all.iter().enumerate() {
-            let last = k + 1 == count;
-            let (color, weight) = if last {
-                (Color::SKY, 1.4)
-            } else {
-                (Color::YELLOW.mix(Color::RED, real(k) / real(count)), 0.7)
-            };
-            if last || k == 0 {
-                panel = panel.with(Line::new(shot.points.clone(), color).weighing(weight));
+        let run = record.run(name)?;
+        let ground = Picture::new(grey(record.grid("road")?));
+        let mut panel = Panel::pixels(title, 192, 128).bare().with(ground);
+        let end = run.len() - 1;
+        for k in 0..end {
+            let color = Color::YELLOW.mix(Color::RED, real(k) / real(run.len()));
+            let curve = run.pairs(k);
+            let tips = [curve[0], curve[curve.len() - 1]];
+            if k == 0 {
+                panel = panel.with(line(curve, color).weighing(0.7));
             }
-            if let (false, Some(&a), Some(&b)) = (last, shot.points.first(), shot.points.last()) {
-                panel = panel.with(Layer::Dots {
-                    points: vec![a, b],
-                    radius: 2.0,
-                    color,
-                    label: String::new(),
-                });
-            }
+            panel = panel.with(dots(tips, 2.0, color));
         }
-        row.push(panel);
+        row.push(panel.with(line(run.pairs(end), Color::SKY).weighing(1.4)));
+        distance = distance.with(line(record.points(name, "arc", "off")?, color).named(words));
     }
     let mut strips = Vec::new();
-    for (name, table, _) in ENDS {
+    for name in ENDS {
+        let run = record.run(name)?;
+        let ground = grey(&record.grid("edge")?.mapv(|v| 0.6 * v + 60.0));
         let mut panel = Panel::pixels(format!("ends: {name}"), 96, 80)
             .bare()
-            .with(Picture::new(grey(
-                &record.grid("edge")?.mapv(|v| 0.6 * v + 60.0),
-            )));
-        let all = shots(record, table)?;
-        for t in times(&all) {
-            for shot in all.iter().filter(|shot| shot.t.to_bits() == t.to_bits()) {
-                panel = panel.with(Line::new(shot.points.clone(), Color::RED).weighing(0.35));
-            }
+            .with(Picture::new(ground));
+        let end = run.len() - 1;
+        for k in (0..end).step_by(3).chain([end]) {
+            panel = panel.with(line(run.pairs(k), Color::RED).weighing(0.35));
         }
-        if let (Some(first), Some(last)) = (all.first(), all.last()) {
-            panel = panel
-                .with(Line::new(first.points.clone(), Color::YELLOW).weighing(1.0))
-                .with(Line::new(last.points.clone(), Color::BLUE).weighing(1.6));
-        }
-        strips.push(panel);
+        strips.push(
+            panel
+                .with(line(run.pairs(0), Color::YELLOW))
+                .with(line(run.pairs(end), Color::BLUE).weighing(1.6)),
+        );
     }
-    let mut off = Panel::new(
-        "distance of the nodes from the middle of the road",
-        Axis::new("along the road / px", 0.0, 215.0),
-        Axis::new("px", 0.0, 3.0),
-    )
-    .legend_at(Corner::TopRight);
-    for (table, name, color) in [
-        ("off-growing", "grown", Color::SKY),
-        ("off-still", "not grown", Color::RED),
-    ] {
-        let points = record.points(table, "arc", "off")?;
-        off = off.with(Line::new(points, color).named(name));
-    }
-    Ok(vec![Artefact::figure(
+    Artefact::only(
         "Above: the start (yellow), where the tips were every 400 steps (dots) and the end (blue). Below: the strip from its start (yellow) to its end (blue) under four rules for its ends.",
         Figure::new("Open curves", 1000.0)
             .with(310.0, row)
-            .with(180.0, vec![off])
+            .with(180.0, vec![distance])
             .with(210.0, strips),
-    )])
+    )
 }

@@ -29,7 +29,7 @@ const FLOORS: [(&str, u32); 16] = [
     ("scene", 5),
     ("cli", 6),
     ("sandbox", 6),
-    ("benches", 7), // it times what the sandbox tries
+    ("benches", 7), // it draws with the kit of the sandbox
     ("py", 6),
 ];
 

@@ -16,9 +16,8 @@ pub(crate) use hand::HAND;
 pub(crate) use overview::OVERVIEW;
 pub(crate) use rules::RULES;
 
-use crate::draw::Figure;
-use crate::{Artefact, Record, SandboxError, Tolerance};
-use story::{Story, Truth, share, top};
+use crate::prelude::*;
+use story::{Story, Truth, share_of, top};
 
 /// The fourteen moments, a to n.
 const MOMENTS: [f64; 14] = [
@@ -26,10 +25,10 @@ const MOMENTS: [f64; 14] = [
 ];
 const LETTERS: &str = "abcdefghijklmn";
 /// What a position may differ by on another machine, in pixels.
-const PLACE: Tolerance = Tolerance::Absolute(1e-3);
+const PLACE: f64 = 1e-3;
 
-fn tell(id: &'static str) -> Result<Story, SandboxError> {
-    Story::of(id, "apple", &[], Truth::apple(id)?)
+fn tell() -> Result<Story> {
+    Story::of("apple", &[], Truth::apple()?)
 }
 
 /// Notes the top and the stuck share at each moment, and keeps what is drawn.
@@ -37,14 +36,9 @@ fn noted(story: &Story) -> Record {
     let mut record = Record::default();
     for (t, letter) in MOMENTS.into_iter().zip(LETTERS.chars()) {
         let nodes = story.at(t);
-        record.note(format!("{letter}: top"), top(nodes).y, "px", PLACE);
-        let stuck = story.truth.stuck(nodes);
-        record.note(
-            format!("{letter}: stuck"),
-            share(&stuck),
-            "of the nodes",
-            Tolerance::Absolute(0.03),
-        );
+        record.note(format!("{letter}: top [px]"), top(nodes).y, PLACE);
+        let stuck = share_of(&story.truth.stuck(nodes));
+        record.note(format!("{letter}: stuck [of the nodes]"), stuck, 0.03);
     }
     record
 }
@@ -53,17 +47,15 @@ fn noted(story: &Story) -> Record {
 fn strip(
     record: &Record,
     title: &str,
-    from: usize,
-    to: usize,
+    letters: std::ops::Range<usize>,
     caption: &'static str,
-) -> Result<Vec<Artefact>, SandboxError> {
-    let mut figure = Figure::new(title, if to - from > 2 { 870.0 } else { 580.0 });
-    let panels = (from..to)
-        .zip(LETTERS.chars().skip(from))
-        .map(|(i, letter)| draw::frame_panel(record, &letter.to_string(), MOMENTS[i], false))
-        .collect::<Result<Vec<_>, SandboxError>>()?;
-    for row in panels.chunks(3) {
-        figure = figure.with(310.0, row.to_vec());
-    }
-    Ok(vec![Artefact::figure(caption, figure)])
+) -> Drawn {
+    let figure = Figure::new(title, if letters.len() > 2 { 870.0 } else { 580.0 });
+    let panels = letters.map(|i| draw::frame_panel(record, &LETTERS[i..=i], MOMENTS[i], false));
+    let panels = panels.collect::<Result<Vec<_>>>()?;
+    let rows = panels.chunks(3);
+    Artefact::only(
+        caption,
+        rows.fold(figure, |figure, row| figure.with(310.0, row.to_vec())),
+    )
 }

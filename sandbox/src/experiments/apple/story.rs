@@ -1,9 +1,7 @@
 //! A snake on a picture, told in numbers: how high its top is, how much of it is stuck on the
 //! contour, how far it is from the hand-drawn truth.
 
-use crate::experiments::motion::{changed_scene, keep_energies, keep_frames, to_the_end};
-use crate::{Record, SandboxError, Table, Tolerance, real};
-use glam::DVec2;
+use crate::prelude::*;
 use integrator::{State, System};
 use ndarray::Array2;
 use scene::Scene;
@@ -20,10 +18,9 @@ pub(crate) struct Truth {
 
 impl Truth {
     /// The apple's contour as drawn by hand.
-    pub(crate) fn apple(id: &'static str) -> Result<Self, SandboxError> {
-        let contour = scene::contour("apple-truth").map_err(SandboxError::refused(id))?;
+    pub(crate) fn apple() -> Result<Self> {
         Ok(Self {
-            contour: contour.first().to_vec(),
+            contour: scene::contour("apple-truth")?.points,
             boxes: &scene::APPLE_DISTURBING,
             near: 4.0,
         })
@@ -41,12 +38,7 @@ impl Truth {
 
     /// Distance to the contour.
     pub(crate) fn distance(&self, p: DVec2) -> f64 {
-        let n = self.contour.len();
-        let edges = (0..n).map(|i| (self.contour[i], self.contour[(i + 1) % n]));
-        edges.fold(f64::INFINITY, |least, (a, b)| {
-            let along = (p - a).dot(b - a) / (b - a).length_squared().max(f64::MIN_POSITIVE);
-            least.min(p.distance(a.lerp(b, along.clamp(0.0, 1.0))))
-        })
+        outline::distance(&self.contour, true, p)
     }
 
     /// Whether a place is in none of the boxes.
@@ -57,29 +49,21 @@ impl Truth {
 
     /// Which nodes are stuck.
     pub(crate) fn stuck(&self, nodes: &[DVec2]) -> Vec<bool> {
-        nodes
-            .iter()
-            .map(|&p| self.distance(p) < self.near)
-            .collect()
+        let near = |&p: &DVec2| self.distance(p) < self.near;
+        nodes.iter().map(near).collect()
     }
 
     /// Mean distance of the nodes outside the boxes, and how many they are.
     pub(crate) fn mean_distance(&self, nodes: &[DVec2]) -> (f64, usize) {
-        let kept: Vec<f64> = nodes
-            .iter()
-            .filter(|&&p| self.counts(p))
-            .map(|&p| self.distance(p))
-            .collect();
-        (
-            kept.iter().sum::<f64>() / real(kept.len().max(1)),
-            kept.len(),
-        )
+        let kept = nodes.iter().filter(|&&p| self.counts(p));
+        let kept: Vec<f64> = kept.map(|&p| self.distance(p)).collect();
+        (mean(kept.iter().copied()), kept.len())
     }
 }
 
 /// Share of the nodes that are stuck.
-pub(crate) fn share(stuck: &[bool]) -> f64 {
-    real(stuck.iter().filter(|&&s| s).count()) / real(stuck.len().max(1))
+pub(crate) fn share_of(stuck: &[bool]) -> f64 {
+    mean(stuck.iter().map(|&stuck| flag(stuck)))
 }
 
 /// The highest node.
@@ -98,31 +82,22 @@ pub(crate) struct Story {
 
 impl Story {
     /// Runs a scene.
-    pub(crate) fn of(
-        id: &'static str,
-        name: &str,
-        changes: &[(&str, &str)],
-        truth: Truth,
-    ) -> Result<Self, SandboxError> {
-        let mut scene = changed_scene(id, name, changes)?;
-        let run = to_the_end(id, &mut scene)?;
+    pub(crate) fn of(name: &str, changes: &[(&str, &str)], truth: Truth) -> Result<Self> {
+        let (scene, run) = ran(name, changes)?;
         Ok(Self { scene, run, truth })
     }
 
     /// The nodes at the frame nearest to a time.
     pub(crate) fn at(&self, t: f64) -> &[DVec2] {
         let distance = |frame: &&scene::Frame| (frame.t - t).abs();
-        let frame = self
-            .run
-            .frames
-            .iter()
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let frames = self.run.frames.iter();
+        let frame = frames.min_by(|a, b| distance(a).total_cmp(&distance(b)));
         frame.map_or(&[], |frame| frame.nodes())
     }
 
     /// The nodes at the end.
     pub(crate) fn last(&self) -> &[DVec2] {
-        self.run.last().map_or(&[], |frame| frame.nodes())
+        last(&self.run)
     }
 
     /// The picture's and the elastic force on every node.
@@ -145,49 +120,32 @@ impl Story {
         })
     }
 
-    /// Keeps frames, energies, the story frame by frame, and what is needed to draw them.
+    /// Keeps the run, the story moment by moment, and what is needed to draw them.
     ///
-    /// `compared` rows apart go into `expected/`; `None` for none.
-    pub(crate) fn keep(&self, record: &mut Record, compared: Option<usize>, tolerance: Tolerance) {
-        keep_frames(record, "curves", &self.run);
-        keep_energies(record, "energy", &self.run);
+    /// `compared` moments apart go into `expected/`; `None` for none.
+    pub(crate) fn keep(&self, record: &mut Record, compared: Option<usize>, tolerance: f64) {
+        record.keep_run("curves", &self.run);
         keep_truth(record, &self.truth);
         if let Some(picture) = &self.scene.picture {
             record.keep_grid("picture", halved(picture.levels()));
         }
-        let tables = [
-            (Table::raw("fine"), Some(1)),
-            (Table::new("story"), compared),
-        ];
-        for (table, step) in tables {
-            let Some(step) = step else { continue };
-            let frames: Vec<&scene::Frame> = self.run.frames.iter().step_by(step).collect();
-            let pick = |value: &dyn Fn(&[DVec2]) -> f64| -> Vec<f64> {
-                frames.iter().map(|frame| value(frame.nodes())).collect()
-            };
-            let some = Tolerance::Absolute(0.03); // a node or two at the border of being stuck
+        let compared = compared.map(|step| (Table::new("story"), step));
+        for (table, step) in std::iter::once((Table::raw("fine"), 1)).chain(compared) {
+            let frames = || self.run.frames.iter().step_by(step);
+            let stuck = frames().map(|frame| share_of(&self.truth.stuck(frame.nodes())));
+            let distance = frames().map(|frame| self.truth.mean_distance(frame.nodes()).0);
             record.keep(
                 table
+                    .with("t", ROUNDING, frames().map(|frame| frame.t))
+                    .with("top x [px]", 8.0, frames().map(|frame| top(frame.nodes()).x))
                     .with(
-                        "t",
-                        "",
-                        Tolerance::ROUNDING,
-                        frames.iter().map(|f| f.t).collect(),
-                    )
-                    .with("top x", "px", Tolerance::Absolute(8.0), pick(&|x| top(x).x))
-                    .with("top y", "px", tolerance, pick(&|x| top(x).y))
-                    .with(
-                        "stuck",
-                        "of the nodes",
-                        some,
-                        pick(&|x| share(&self.truth.stuck(x))),
-                    )
-                    .with(
-                        "distance",
-                        "px",
+                        "top y [px]",
                         tolerance,
-                        pick(&|x| self.truth.mean_distance(x).0),
-                    ),
+                        frames().map(|frame| top(frame.nodes()).y),
+                    )
+                    // a node or two at the border of being stuck
+                    .with("stuck [of the nodes]", 0.03, stuck)
+                    .with("distance [px]", tolerance, distance),
             );
         }
     }
@@ -195,40 +153,18 @@ impl Story {
 
 /// Keeps a contour so that it can be drawn, and told stuck nodes from others.
 fn keep_truth(record: &mut Record, truth: &Truth) {
-    record.keep(
-        Table::raw("truth")
-            .with(
-                "x",
-                "px",
-                Tolerance::EXACT,
-                truth.contour.iter().map(|p| p.x).collect(),
-            )
-            .with(
-                "y",
-                "px",
-                Tolerance::EXACT,
-                truth.contour.iter().map(|p| p.y).collect(),
-            )
-            .with(
-                "near",
-                "px",
-                Tolerance::EXACT,
-                vec![truth.near; truth.contour.len()],
-            ),
-    );
+    let near = truth.contour.iter().map(|_| truth.near);
+    let table = Table::raw("truth").xy("px", EXACT, &truth.contour);
+    record.keep(table.exact("near [px]", near));
 }
 
 /// A contour read back from a record, without its boxes.
-pub(crate) fn truth_of(record: &Record) -> Result<Truth, SandboxError> {
-    let points = record.points("truth", "x", "y")?;
+pub(crate) fn truth_of(record: &Record) -> Result<Truth> {
+    let contour = record.xy("truth")?.into_iter().map(DVec2::from);
     Ok(Truth {
-        contour: points.into_iter().map(|(x, y)| DVec2::new(x, y)).collect(),
+        contour: contour.collect(),
         boxes: &[],
-        near: record
-            .column("truth", "near")?
-            .first()
-            .copied()
-            .unwrap_or(0.0),
+        near: record.column("truth", "near")?[0],
     })
 }
 

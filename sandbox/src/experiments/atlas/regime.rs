@@ -1,8 +1,7 @@
 //! What a mode does: predicted by the roots of its step, and measured by a run.
 
-use crate::{SandboxError, real};
+use crate::prelude::*;
 use elastic::{Material, Topology};
-use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use snake::{Body, Snake, World};
 use std::f64::consts::TAU;
@@ -130,38 +129,28 @@ impl Point {
     }
 
     /// The regime by two runs of a snake, bent in one mode each and let go.
-    pub(crate) fn measured(&self, scheme: Scheme) -> Result<Regime, SandboxError> {
+    pub(crate) fn measured(&self, scheme: Scheme) -> Result<Regime> {
         Ok(Regime::of(self.run(scheme, SLOW)?, self.run(scheme, FAST)?))
     }
 
-    fn run(&self, scheme: Scheme, mode: usize) -> Result<Motion, SandboxError> {
-        let refused = |reason: String| SandboxError::Refused {
-            experiment: "atlas",
-            reason,
-        };
+    fn run(&self, scheme: Scheme, mode: usize) -> Result<Motion> {
         let radius = SPACING / (2.0 * (std::f64::consts::PI / real(NODES)).sin());
         let circle = elastic::circle(DVec2::ZERO, radius, NODES);
         let [tether, tension, rigidity] = self.material;
-        let mut body = Body::of(&circle, Topology::Closed, self.mass)
-            .map_err(|error| refused(error.to_string()))?
+        let mut body = Body::of(&circle, Topology::Closed, self.mass)?
             .with_material(Material::uniform(tether, tension, rigidity))
             .with_damping(self.damping);
         body.spacing = SPACING;
-        let mut snake =
-            Snake::new(body, World::default()).map_err(|error| refused(error.to_string()))?;
-        let wave: Vec<f64> = (0..NODES)
-            .map(|i| (TAU * real(mode * i % NODES) / real(NODES)).cos())
-            .collect();
+        let mut snake = Snake::new(body, World::default())?;
+        let wave = |i: usize| (TAU * real(mode * i % NODES) / real(NODES)).cos();
+        let wave: Vec<f64> = (0..NODES).map(wave).collect();
         let rest = snake.body().rest.clone();
         let bent = rest
             .iter()
             .zip(&wave)
-            .map(|(r, w)| *r + DVec2::new(*w, 0.0))
-            .collect();
-        let mut state = State::at_rest(bent);
-        let mut stepper = scheme
-            .start(&mut snake, &state, self.dt, Start::SecondOrder)
-            .map_err(|error| refused(error.to_string()))?;
+            .map(|(r, w)| *r + DVec2::new(*w, 0.0));
+        let mut state = State::at_rest(bent.collect());
+        let mut stepper = scheme.start(&mut snake, &state, self.dt, Start::SecondOrder)?;
         let norm: f64 = wave.iter().map(|w| w * w).sum();
         let amplitude = |state: &State| -> f64 {
             let parts = state.x.iter().zip(&rest).zip(&wave);
@@ -191,14 +180,11 @@ const GONE: f64 = 1e-11;
 
 /// What a series of amplitudes shows, by its later half.
 fn judged(seen: &[f64]) -> Motion {
-    let turns = |part: &[f64]| {
-        part.windows(2)
-            .filter(|p| (p[0] < 0.0) != (p[1] < 0.0))
-            .count()
-    };
-    let late = &seen[seen.len() / 2..];
+    let turn = |pair: &&[f64]| (pair[0] < 0.0) != (pair[1] < 0.0);
+    let turns = |part: &[f64]| part.windows(2).filter(turn).count();
+    let (early, late) = seen.split_at(seen.len() / 2);
     let largest = |part: &[f64]| part.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
-    if seen.len() > STEPS && largest(late) > 1.2 * largest(&seen[..seen.len() / 2]) {
+    if seen.len() > STEPS && largest(late) > 1.2 * largest(early) {
         Motion::Grows
     } else if late.len() > 2 && turns(late) + 1 >= late.len() {
         Motion::Zigzags

@@ -1,17 +1,13 @@
 //! One ball followed step by step: its center, shape and contact, and what sums them up.
 
-use crate::experiments::motion::{keep_energies, keep_frames};
-use crate::{Record, SandboxError, Table, Tolerance, real};
-use glam::DVec2;
+use crate::prelude::*;
 use integrator::System;
-use scene::Scene;
 use std::f64::consts::{PI, TAU};
-use std::ops::ControlFlow;
 
 /// A shape closer than this to its own, root mean square, counts as recovered (errata §6).
 pub(crate) const RECOVERED: f64 = 0.04;
 /// Rounding of a few thousand steps, and the last bits of a foreign `sin` in the start.
-pub(crate) const STEPS: Tolerance = Tolerance::Absolute(1e-6);
+pub(crate) const STEPS: f64 = 1e-6;
 
 /// One ball, a value a step, the start included.
 #[derive(Debug, Default)]
@@ -69,24 +65,16 @@ impl Course {
 
     /// Extremes of a quantity from a step on.
     pub(crate) fn extremes(values: &[f64], from: usize) -> Vec<usize> {
+        let turns = |i: usize| (values[i] - values[i - 1]) * (values[i + 1] - values[i]) < 0.0;
         (from.max(1)..values.len() - 1)
-            .filter(|&i| (values[i] - values[i - 1]) * (values[i + 1] - values[i]) < 0.0)
+            .filter(|&i| turns(i))
             .collect()
     }
 
     /// Circular frequency of the mode after the ball has left the wall, by its zero crossings.
     pub(crate) fn frequency(&self) -> Option<f64> {
-        let from = self.contact().1 + 1;
-        let zero = |i: usize| {
-            let (a, b) = (self.mode[i], self.mode[i + 1]);
-            self.t[i] + (self.t[i + 1] - self.t[i]) * a / (a - b)
-        };
-        let crossings: Vec<f64> = (from..self.mode.len() - 1)
-            .filter(|&i| (self.mode[i] < 0.0) != (self.mode[i + 1] < 0.0))
-            .map(zero)
-            .collect();
-        let (first, last) = (crossings.first()?, crossings.last()?);
-        (crossings.len() > 2).then(|| PI * real(crossings.len() - 1) / (last - first))
+        let from = self.contact().1;
+        frequency(&self.t, &self.mode, (self.t[from], f64::INFINITY), 3)
     }
 
     /// Rate at which that mode dies away after the ball has left the wall, by its extremes.
@@ -103,21 +91,31 @@ impl Course {
     }
 }
 
+/// Circular frequency between two times by zero crossings, if there are so many of them.
+pub(crate) fn frequency(
+    t: &[f64],
+    value: &[f64],
+    (from, to): (f64, f64),
+    count: usize,
+) -> Option<f64> {
+    let turns = |i: &usize| (value[*i] < 0.0) != (value[i + 1] < 0.0);
+    let inside = |i: &usize| t[*i] > from && t[i + 1] < to;
+    let zero = |i: usize| t[i] + (t[i + 1] - t[i]) * value[i] / (value[i] - value[i + 1]);
+    let all = (0..t.len() - 1).filter(|i| inside(i) && turns(i));
+    let zeros: Vec<f64> = all.map(zero).collect();
+    let (first, last) = (zeros.first()?, zeros.last()?);
+    (zeros.len() >= count).then(|| PI * real(zeros.len() - 1) / (last - first))
+}
+
 /// Runs a ball and follows it; the frames come with it.
-pub(crate) fn follow(
-    id: &'static str,
-    scene: &mut Scene,
-) -> Result<(Course, scene::Record), SandboxError> {
+pub(crate) fn follow(name: &str, changes: &[(&str, &str)]) -> Result<(Course, scene::Record)> {
+    let mut scene = scene_with(name, changes)?;
     scene.plan.recording.every = Some(20);
     scene.plan.recording.energies = true;
     let snake = scene.snake.clone();
     let mut course = Course::default();
-    if snake
-        .world()
-        .walls
-        .iter()
-        .any(|wall| matches!(wall.law(), snake::WallLaw::Impact { .. }))
-    {
+    let throws = |wall: &snake::Wall| matches!(wall.law(), snake::WallLaw::Impact { .. });
+    if snake.world().walls.iter().any(throws) {
         course.reach = scene.plan.dt * scene.start.v[0].length();
     }
     if let Some([diagonal, first, second]) = snake.stiffness().band().circulant().as_deref() {
@@ -129,117 +127,81 @@ pub(crate) fn follow(
     }
     let start = scene.start.clone();
     course.see(&snake, start.t, &start.x, &start.v);
-    let run = scene
-        .run(&mut |state| {
-            course.see(&snake, state.t, &state.x, &state.v);
-            ControlFlow::Continue(())
-        })
-        .map_err(SandboxError::refused(id))?;
+    let run = watched(&mut scene, &mut |state| {
+        course.see(&snake, state.t, &state.x, &state.v);
+    })?;
     Ok((course, run))
 }
 
 /// The numbers that sum a course up, each name after `prefix`.
 pub(crate) fn sum_up(record: &mut Record, prefix: &str, course: &Course) {
     let (first, last) = course.contact();
+    let (start, area) = (course.area[0], &course.area);
     let end = course.t.len() - 1;
-    let start_area = course.area[0];
-    let least = (0..=end)
-        .min_by(|&a, &b| course.area[a].total_cmp(&course.area[b]))
-        .unwrap_or(0);
-    let after = course.area[least..]
-        .iter()
-        .fold(f64::NEG_INFINITY, |a, &b| a.max(b));
-    let largest = course.rms.iter().fold(0.0_f64, |a, &b| a.max(b));
-    let moment = Tolerance::Absolute(0.0015);
-    let mut note = |name: &str, value: f64, unit: &'static str, tolerance: Tolerance| {
-        record.note(format!("{prefix}{name}"), value, unit, tolerance);
+    let low = (0..=end).min_by(|&a, &b| area[a].total_cmp(&area[b]));
+    let low = low.unwrap_or(0);
+    let towards = -course.speed[first.saturating_sub(1)].x;
+    let away = course.speed[(last + 1).min(end)].x;
+    let after = most(area[low..].iter().copied());
+    let extremes = real(Course::extremes(area, first + 1).len());
+    let moment = 0.0015;
+    for (name, value, tolerance) in [
+        ("least area [of the start]", area[low] / start, STEPS),
+        ("time of the least area [s]", course.t[low], moment),
+        (
+            "largest area afterwards [of the start]",
+            after / start,
+            STEPS,
+        ),
+        ("area at the end [of the start]", area[end] / start, STEPS),
+        (
+            "largest deformation (rms)",
+            most(course.rms.iter().copied()),
+            STEPS,
+        ),
+        ("deformation at the end (rms)", course.rms[end], STEPS),
+        ("first contact [s]", course.t[first], moment),
+        ("last contact [s]", course.t[last], moment),
+        ("speed towards the wall [/s]", towards, STEPS),
+        ("speed away from it [/s]", away, STEPS),
+        ("out of shape until [s]", course.recovered(), moment),
+        ("center at the end: x", course.center[end].x, STEPS),
+        ("center at the end: y", course.center[end].y, STEPS),
+        ("largest deformation in y", course.across, STEPS),
+        ("extremes of the area after the contact", extremes, EXACT),
+    ] {
+        record.note(format!("{prefix}{name}"), value, tolerance);
+    }
+    let (Some(found), Some(rate)) = (course.frequency(), course.decay_rate()) else {
+        return;
     };
-    note(
-        "least area",
-        course.area[least] / start_area,
-        "of the start",
-        STEPS,
-    );
-    note("time of the least area", course.t[least], "s", moment);
-    note(
-        "largest area afterwards",
-        after / start_area,
-        "of the start",
-        STEPS,
-    );
-    note(
-        "area at the end",
-        course.area[end] / start_area,
-        "of the start",
-        STEPS,
-    );
-    note("largest deformation (rms)", largest, "", STEPS);
-    note("deformation at the end (rms)", course.rms[end], "", STEPS);
-    note("first contact", course.t[first], "s", moment);
-    note("last contact", course.t[last], "s", moment);
-    let before = first.saturating_sub(1);
-    note(
-        "speed towards the wall",
-        -course.speed[before].x,
-        "/s",
-        STEPS,
-    );
-    note(
-        "speed away from it",
-        course.speed[(last + 1).min(end)].x,
-        "/s",
-        STEPS,
-    );
-    note("out of shape until", course.recovered(), "s", moment);
-    note("center at the end: x", course.center[end].x, "", STEPS);
-    note("center at the end: y", course.center[end].y, "", STEPS);
-    note("largest deformation in y", course.across, "", STEPS);
-    let extremes = Course::extremes(&course.area, first + 1).len();
-    note(
-        "extremes of the area after the contact",
-        real(extremes),
-        "",
-        Tolerance::EXACT,
-    );
-    if let (Some(found), Some(rate)) = (course.frequency(), course.decay_rate()) {
-        note(
-            "ringing: predicted",
-            course.predicted(),
-            "rad/s",
-            Tolerance::ROUNDING,
-        );
-        note("ringing: measured", found, "rad/s", STEPS);
-        note(
-            "ringing dies away: predicted",
-            course.decay,
-            "/s",
-            Tolerance::ROUNDING,
-        );
-        note("ringing dies away: measured", rate, "/s", STEPS);
+    for (name, value, tolerance) in [
+        ("ringing: predicted [rad/s]", course.predicted(), ROUNDING),
+        ("ringing: measured [rad/s]", found, STEPS),
+        ("ringing dies away: predicted [/s]", course.decay, ROUNDING),
+        ("ringing dies away: measured [/s]", rate, STEPS),
+    ] {
+        record.note(format!("{prefix}{name}"), value, tolerance);
     }
 }
 
 /// Keeps a course as two tables: tenths of a second to compare, and all frames to draw.
 pub(crate) fn keep(record: &mut Record, course: &Course, run: &scene::Record) {
-    let end = course.t.len() - 1;
     for (table, step) in [(Table::new("course"), 100), (Table::raw("fine"), 20)] {
-        let rows: Vec<usize> = (0..=end).step_by(step).collect();
-        let pick = |values: &dyn Fn(usize) -> f64| rows.iter().map(|&i| values(i)).collect();
+        let rows = || (0..course.t.len()).step_by(step);
         record.keep(
             table
-                .with("t", "s", Tolerance::ROUNDING, pick(&|i| course.t[i]))
-                .with("center x", "", STEPS, pick(&|i| course.center[i].x))
-                .with("center y", "", STEPS, pick(&|i| course.center[i].y))
-                .with("deformation", "", STEPS, pick(&|i| course.rms[i]))
+                .with("t [s]", ROUNDING, rows().map(|i| course.t[i]))
+                .with("center x", STEPS, rows().map(|i| course.center[i].x))
+                .with("center y", STEPS, rows().map(|i| course.center[i].y))
+                .with("deformation", STEPS, rows().map(|i| course.rms[i]))
                 .with(
                     "area",
-                    "",
                     STEPS,
-                    pick(&|i| course.area[i] / course.area[0]),
+                    rows().map(|i| course.area[i] / course.area[0]),
                 )
-                .with("mode", "", STEPS, pick(&|i| course.mode[i])),
+                .with("mode", STEPS, rows().map(|i| course.mode[i])),
         );
     }
-    keep_frames(record, "curves", run);
-    keep_energies(record, "energy", run);
+    record.keep_run("curves", run);
 }

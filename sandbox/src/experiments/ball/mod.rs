@@ -1,26 +1,22 @@
 //! Report §2.5: five balls, very soft to very hard, against the wall x = 0 (Figures 2.2 to 2.6).
 
+use crate::prelude::*;
+
 mod course;
 mod draw;
 mod hard;
 mod overview;
 mod walls;
 
+pub(crate) use course::frequency;
 pub(crate) use hard::{HARD, VERY_HARD};
 pub(crate) use overview::OVERVIEW;
 pub(crate) use walls::{FRICTION, WALLS};
 
-use crate::experiments::motion::changed_scene;
-use crate::{Claim, Experiment, Finding, Record, SandboxError};
-
 /// Runs one ball and keeps everything of it.
-fn measured(
-    id: &'static str,
-    scene: &str,
-    changes: &[(&str, &str)],
-) -> Result<Record, SandboxError> {
+fn measured(scene: &str) -> Result {
     let mut record = Record::default();
-    let (course, run) = course::follow(id, &mut changed_scene(id, scene, changes)?)?;
+    let (course, run) = course::follow(scene, &[])?;
     course::sum_up(&mut record, "", &course);
     course::keep(&mut record, &course, &run);
     Ok(record)
@@ -33,51 +29,20 @@ pub(crate) const VERY_SOFT: Experiment = Experiment {
     place: "Figure 2.2",
     question: "All elastic parameters are nearly zero. What is left of the ball after the wall?",
     claims: &[
-        Claim {
-            says: "it reacts like a viscous fluid: it flows and never recovers",
-            source: "report §2.5",
-            judge: |r| {
-                let end = r.number("deformation at the end (rms)")?;
-                let area = r.number("area at the end")?;
-                Ok(Finding::new(
-                    end > 1.0 && area < 0.03,
-                    format!(
-                        "at the end {end:.2} from its shape (half axes 1.5 and 1) with {:.1} % of its area",
-                        100.0 * area
-                    ),
-                ))
-            },
-        },
-        Claim {
-            says: "it stays at the wall and slides down it",
-            source: "errata §6",
-            judge: |r| {
-                let (last, away) = (r.number("last contact")?, r.number("speed away from it")?);
-                let (x, y) = (
-                    r.number("center at the end: x")?,
-                    r.number("center at the end: y")?,
-                );
-                Ok(Finding::new(
-                    last > 6.99 && away.abs() < 0.05 && x < 0.05 && y < 2.0,
-                    format!(
-                        "in contact to the end, {away:.3} /s off the wall, center from y = 8 to {y:.2} at x = {x:.3}"
-                    ),
-                ))
-            },
-        },
-        Claim {
-            says: "without friction nothing couples x and y: squeezed in x only, no bulging in y",
-            source: "D67",
-            judge: |r| {
-                let across = r.number("largest deformation in y")?;
-                Ok(Finding::new(
-                    across < 1e-7,
-                    format!("largest deformation in y: {across:.1e}"),
-                ))
-            },
-        },
+        claim("it reacts like a viscous fluid: it flows and never recovers [report §2.5]").when(&[
+            above("deformation at the end (rms)", 1.0),
+            below("area at the end", 0.03),
+        ]),
+        claim("it stays at the wall and slides down it [errata §6]").when(&[
+            above("last contact", 6.99),
+            near("speed away from it", 0.0, 0.05),
+            below("center at the end: x", 0.05),
+            below("center at the end: y", 2.0),
+        ]),
+        claim("without friction nothing couples x and y: squeezed in x, no bulging in y [D67]")
+            .when(&[below("largest deformation in y", 1e-7)]),
     ],
-    run: || measured("fig-2-2", "very-soft-ball", &[]),
+    run: || measured("very-soft-ball"),
     draw: |r| {
         draw::one(
             r,
@@ -94,44 +59,15 @@ pub(crate) const SOFT: Experiment = Experiment {
     place: "Figure 2.3",
     question: "ω₀ = 0, tension and rigidity greater than before. What does the wall do to the ball's volume?",
     claims: &[
-        Claim {
-            says: "the ball need not have a constant volume; it is compressible",
-            source: "report §2.5",
-            judge: |r| {
-                let (least, at) = (r.number("least area")?, r.told("time of the least area")?);
-                Ok(Finding::new(
-                    least < 0.35,
-                    format!("squeezed to {least:.3} of its area at {at:.2} s"),
-                ))
-            },
-        },
-        Claim {
-            says: "and swells afterwards",
-            source: "errata §6",
-            judge: |r| {
-                let after = r.number("largest area afterwards")?;
-                Ok(Finding::new(
-                    after > 1.1,
-                    format!("to {after:.3} of its area"),
-                ))
-            },
-        },
-        Claim {
-            says: "it leaves the wall, but is not back in shape after 7 s",
-            source: "errata §6",
-            judge: |r| {
-                let (last, end) = (
-                    r.number("last contact")?,
-                    r.number("deformation at the end (rms)")?,
-                );
-                Ok(Finding::new(
-                    last < 5.0 && end > course::RECOVERED,
-                    format!("leaves at {last:.2} s, at the end {end:.2} from its shape"),
-                ))
-            },
-        },
+        claim("the ball need not have a constant volume; it is compressible [report §2.5]")
+            .when(&[below("least area", 0.35)]),
+        claim("and swells afterwards [errata §6]").when(&[above("largest area afterwards", 1.1)]),
+        claim("it leaves the wall, but is not back in shape after 7 s [errata §6]").when(&[
+            below("last contact", 5.0),
+            above("deformation at the end (rms)", course::RECOVERED),
+        ]),
     ],
-    run: || measured("fig-2-3", "soft-ball", &[]),
+    run: || measured("soft-ball"),
     draw: |r| {
         draw::one(
             r,
@@ -148,55 +84,25 @@ pub(crate) const RIGID: Experiment = Experiment {
     place: "Figure 2.4",
     question: "Harder than the previous one. What does the shape do after the hit?",
     claims: &[
-        Claim {
-            says: "upon hitting the wall, the shape oscillates around its original shape",
-            source: "report §2.5",
-            judge: |r| {
-                let count = r.number("extremes of the area after the contact")?;
-                let (least, after) = (
-                    r.number("least area")?,
-                    r.number("largest area afterwards")?,
-                );
-                Ok(Finding::new(
-                    count > 3.5 && least < 0.8 && after > 1.03,
-                    format!(
-                        "{count} extremes of the area, between {least:.2} and {after:.2} of the start"
-                    ),
-                ))
-            },
-        },
-        Claim {
-            says: "it rings with the first mode of its own matrix",
-            source: "errata §6, §7",
-            judge: |r| {
-                let (found, right) = (
-                    r.number("ringing: measured")?,
-                    r.number("ringing: predicted")?,
-                );
-                Ok(Finding::new(
-                    (found / right - 1.0).abs() < 2e-3,
-                    format!("{found:.4} rad/s measured, {right:.4} rad/s from the eigenvalue"),
-                ))
-            },
-        },
-        Claim {
-            says: "and is in shape again at the end",
-            source: "report §2.5",
-            judge: |r| {
-                let (until, end) = (
-                    r.number("out of shape until")?,
-                    r.number("deformation at the end (rms)")?,
-                );
-                Ok(Finding::new(
-                    until < 4.0 && end < course::RECOVERED,
-                    format!(
-                        "further than 0.04 from its shape until {until:.2} s, {end:.3} at the end"
-                    ),
-                ))
-            },
-        },
+        claim(
+            "upon hitting the wall, the shape oscillates around its original shape [report §2.5]",
+        )
+        .when(&[
+            above("extremes of the area after the contact", 3.5),
+            below("least area", 0.8),
+            above("largest area afterwards", 1.03),
+        ]),
+        claim("it rings with the first mode of its own matrix [errata §6, §7]").when(&[like(
+            "ringing: measured",
+            "ringing: predicted",
+            2e-3,
+        )]),
+        claim("and is in shape again at the end [report §2.5]").when(&[
+            below("out of shape until", 4.0),
+            below("deformation at the end (rms)", course::RECOVERED),
+        ]),
     ],
-    run: || measured("fig-2-4", "rigid-ball", &[]),
+    run: || measured("rigid-ball"),
     draw: |r| {
         draw::one(
             r,

@@ -1,12 +1,8 @@
 //! The five balls of §2.5 beside each other.
 
-use super::course::{self, STEPS};
-use super::draw;
-use crate::draw::{Axis, Color, Figure, Line, Panel};
-use crate::experiments::motion::{Frames, changed_scene, keep_frames};
-use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance};
+use super::course;
+use crate::prelude::*;
 
-const ID: &str = "sec-2-5-balls";
 /// Scene, short name and figure of each ball.
 const BALLS: [(&str, &str, &str); 5] = [
     ("very-soft-ball", "very soft", "2.2"),
@@ -15,73 +11,45 @@ const BALLS: [(&str, &str, &str); 5] = [
     ("hard-ball", "hard", "2.5"),
     ("very-hard-ball", "very hard", "2.6"),
 ];
-/// Table of each ball's frames.
-const CURVES: [&str; 5] = ["curves-1", "curves-2", "curves-3", "curves-4", "curves-5"];
 
 /// Five balls, one row.
 pub(crate) const OVERVIEW: Experiment = Experiment {
-    id: ID,
+    id: "sec-2-5-balls",
     title: "Five balls",
     place: "§2.5",
     question: "From very soft to very hard: how far is each ball squeezed, how long does it stay, how fast does it \
                leave, and when is it in shape again?",
     claims: &[
-        Claim {
-            says: "the harder the ball, the less its area falls",
-            source: "report §2.5",
-            judge: |r| falling_or_rising(r, "least area", 1.0),
-        },
-        Claim {
-            says: "the harder the ball, the shorter it stays at the wall",
-            source: "errata §6",
-            judge: |r| {
-                let last = r.column("balls", "last contact")?;
-                let first = r.column("balls", "first contact")?;
-                let stays: Vec<f64> = last.iter().zip(first).map(|(l, f)| l - f).collect();
-                Ok(Finding::new(
-                    stays.windows(2).all(|pair| pair[1] < pair[0]),
-                    format!("{stays:.2?} s"),
-                ))
-            },
-        },
-        Claim {
-            says: "the harder the ball, the more of its speed it keeps",
-            source: "errata §6",
-            judge: |r| {
-                let away = r.column("balls", "speed away from it")?;
-                let towards = r.column("balls", "speed towards the wall")?;
-                let kept: Vec<f64> = away.iter().zip(towards).map(|(a, t)| a / t).collect();
-                Ok(Finding::new(
-                    kept.windows(2).all(|pair| pair[1] > pair[0]),
-                    format!("{kept:.2?} of it"),
-                ))
-            },
-        },
+        claim("the harder the ball, the less its area falls [report §2.5]")
+            .when(&[rising("least area @ balls")]),
+        claim("the harder the ball, the shorter it stays at the wall [errata §6]").judged(|r| {
+            let first = r.column("balls", "first contact")?;
+            let last = r.column("balls", "last contact")?;
+            let stays: Vec<f64> = last.iter().zip(first).map(|(l, f)| l - f).collect();
+            let falling = stays.windows(2).all(|pair| pair[1] < pair[0]);
+            Ok(Finding::new(falling, format!("{stays:.2?} s")))
+        }),
+        claim("the harder the ball, the more of its speed it keeps [errata §6]").judged(|r| {
+            let away = r.column("balls", "speed away from it")?;
+            let towards = r.column("balls", "speed towards the wall")?;
+            let kept: Vec<f64> = away.iter().zip(towards).map(|(a, t)| a / t).collect();
+            let rising = kept.windows(2).all(|pair| pair[1] > pair[0]);
+            Ok(Finding::new(rising, format!("{kept:.2?} of it")))
+        }),
     ],
     run,
     draw: drawn,
 };
 
-fn falling_or_rising(r: &Record, column: &str, sign: f64) -> Result<Finding, SandboxError> {
-    let values = r.column("balls", column)?;
-    Ok(Finding::new(
-        values
-            .windows(2)
-            .all(|pair| sign * (pair[1] - pair[0]) > 0.0),
-        format!("{values:.3?}"),
-    ))
-}
-
-fn run() -> Result<Record, SandboxError> {
+fn run() -> Result {
     let mut record = Record::default();
-    let mut notes = Vec::new();
-    let mut courses = Vec::new();
-    for ((scene, _, _), table) in BALLS.into_iter().zip(CURVES) {
-        let (course, run) = course::follow(ID, &mut changed_scene(ID, scene, &[])?)?;
+    let (mut notes, mut courses) = (Vec::new(), Vec::new());
+    for (scene, name, _) in BALLS {
+        let (course, run) = course::follow(scene, &[])?;
         let mut one = Record::default();
         course::sum_up(&mut one, "", &course);
         notes.push(one);
-        keep_frames(&mut record, table, &run);
+        record.keep_run(name, &run);
         courses.push(course);
     }
     let mut table = Table::new("balls");
@@ -90,86 +58,68 @@ fn run() -> Result<Record, SandboxError> {
         .iter()
         .filter(|n| !n.name.starts_with("ringing"))
     {
-        let values: Result<Vec<f64>, SandboxError> =
-            notes.iter().map(|one| one.number(&number.name)).collect();
-        table = table.with(number.name.clone(), number.unit, number.tolerance, values?);
+        let values = notes.iter().map(|one| one.number(&number.name));
+        let values = values.collect::<Result<Vec<f64>>>()?;
+        let name = format!("{} [{}]", number.name, number.unit);
+        table = table.with(name, number.tolerance, values);
     }
     record.keep(table);
-    let rows: Vec<usize> = (0..courses[0].t.len()).step_by(20).collect();
-    let mut fine = Table::raw("fine").with(
-        "t",
-        "s",
-        Tolerance::ROUNDING,
-        rows.iter().map(|&i| courses[0].t[i]).collect(),
-    );
+    let rows = || (0..courses[0].t.len()).step_by(20);
+    let mut fine = Table::raw("fine").exact("t [s]", rows().map(|i| courses[0].t[i]));
     for ((_, name, _), course) in BALLS.into_iter().zip(&courses) {
-        let pick = |values: &[f64]| rows.iter().map(|&i| values[i]).collect();
-        let area: Vec<f64> = course.area.iter().map(|a| a / course.area[0]).collect();
         fine = fine
-            .with(format!("deformation {name}"), "", STEPS, pick(&course.rms))
-            .with(format!("area {name}"), "", STEPS, pick(&area))
-            .with(
-                format!("x {name}"),
-                "",
-                STEPS,
-                rows.iter().map(|&i| course.center[i].x).collect(),
+            .exact(format!("deformation {name}"), rows().map(|i| course.rms[i]))
+            .exact(
+                format!("area {name}"),
+                rows().map(|i| course.area[i] / course.area[0]),
             )
-            .with(
-                format!("y {name}"),
-                "",
-                STEPS,
-                rows.iter().map(|&i| course.center[i].y).collect(),
-            );
+            .exact(format!("x {name}"), rows().map(|i| course.center[i].x))
+            .exact(format!("y {name}"), rows().map(|i| course.center[i].y));
     }
     record.keep(fine);
     Ok(record)
 }
 
-fn drawn(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
+fn drawn(record: &Record) -> Drawn {
     let mut strip = Vec::new();
-    for ((_, name, figure), table) in BALLS.into_iter().zip(CURVES) {
-        let frames = Frames::of(record, table)?;
+    for (_, name, figure) in BALLS {
+        let frames = record.run(name)?;
         let right = if name == "very hard" { 13.0 } else { 8.2 };
-        let mut panel = Panel::new(
-            format!("{figure}  {name}"),
-            Axis::new("", -0.3, right),
-            Axis::new("", -1.9, 9.4),
-        )
-        .equal()
-        .bare()
-        .with(Line::new(vec![(0.0, -1.9), (0.0, 9.4)], Color::INK).weighing(1.6));
+        let title = format!("{figure}  {name}");
+        let mut panel = plot(title, ("", -0.3, right), ("", -1.9, 9.4))
+            .equal()
+            .bare();
+        panel = panel.with(line([(0.0, -1.9), (0.0, 9.4)], Color::INK).weighing(1.6));
         panel.share = right + 0.6;
         let way = record.points("fine", &format!("x {name}"), &format!("y {name}"))?;
-        strip.push(
-            draw::snapshots(panel, &frames, &frames.each(0.5), 0.55)
-                .with(Line::new(way, Color::INK).dashed().weighing(0.6)),
-        );
+        let way = line(way, Color::INK).dashed().weighing(0.6);
+        strip.push(snapshots(panel, frames, &frames.each(0.5), 0.55).with(way));
     }
-    let time = || Axis::new("t / s", 0.0, 7.0);
-    let mut shape = Panel::new(
+    let time = ("t / s", 0.0, 7.0);
+    let mut shape = plot(
         "deformation from its shape",
-        time(),
+        time,
         Axis::log("rms of e", 1e-5, 3.0),
     );
-    let mut area = Panel::new("area", time(), Axis::new("of the start", 0.0, 1.25));
+    let mut area = plot("area", time, ("of the start", 0.0, 1.25));
     for ((_, name, _), color) in BALLS.into_iter().zip(Color::SERIES) {
-        let line = |what: &str| record.points("fine", "t", &format!("{what} {name}"));
+        let over_time = |what: &str| record.points("fine", "t", &format!("{what} {name}"));
         shape = shape.with(
-            Line::new(line("deformation")?, color)
+            line(over_time("deformation")?, color)
                 .weighing(0.8)
                 .named(name),
         );
-        area = area.with(Line::new(line("area")?, color).weighing(0.8).named(name));
+        area = area.with(line(over_time("area")?, color).weighing(0.8).named(name));
     }
-    let figure = Figure::new(
-        "Figures 2.2 to 2.6  Five balls against the wall x = 0",
-        1000.0,
-    )
-    .with(265.0, strip)
-    .with(270.0, vec![draw::legend_low(shape), draw::legend_low(area)]);
-    Ok(vec![Artefact::figure(
+    let below = [shape, area].map(|panel| panel.legend_at(Corner::BottomRight));
+    Artefact::only(
         "Each ball as the report draws it, a snapshot every 0.5 s, at one scale. Below: how far each is from its shape, \
          and its area.",
-        figure,
-    )])
+        Figure::new(
+            "Figures 2.2 to 2.6  Five balls against the wall x = 0",
+            1000.0,
+        )
+        .with(265.0, strip)
+        .with(270.0, below.to_vec()),
+    )
 }

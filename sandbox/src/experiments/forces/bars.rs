@@ -1,21 +1,17 @@
 //! Two edges close together: where the force says they are (D47).
 
 use super::synthetic::{AROUND, OBJECT};
-use crate::demand::{above, below, judged};
-use crate::draw::{Axis, Color, Figure, Layer, Line, Panel};
-use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
+use crate::prelude::*;
 use field::{
     EdgeForce, Grid, Polarity, REPORT_PASSES, Region, RegionScratch, SignedEdge, Smoothing,
     TwoRegions, edge_force,
     signal::{force, smooth_binomial},
 };
-use glam::DVec2;
 
-const ID: &str = "sec-4-2-bars";
 /// Widths of the bars, in pixels.
 const WIDTHS: [usize; 9] = [2, 3, 4, 5, 6, 8, 10, 12, 16];
 /// Those drawn one by one.
-const SHOWN: [usize; 3] = [4, 8, 16];
+const SHOWN: [(usize, &str); 3] = [(4, "bar-4"), (8, "bar-8"), (16, "bar-16")];
 const LENGTH: usize = 100;
 const ROWS: usize = 24;
 /// The first sample of the bar; its left edge lies half a pixel before.
@@ -33,127 +29,81 @@ const KINDS: [&str; 5] = [
 
 /// Where the force of two close edges vanishes.
 pub(crate) const BARS: Experiment = Experiment {
-    id: ID,
+    id: "sec-4-2-bars",
     title: "Two edges close together",
     place: "§4.2.1",
     question: "A bright bar 2 to 16 px wide has two edges. How far from them does each force come to rest, and does \
                knowing the sign of the edge, or looking at regions, help?",
     claims: &[
-        Claim {
-            says: "the report's force rests 2.4, 1.5, 0.85, 0.34 and 0.014 px outside the edges of bars 2, 4, 6, 8 and 12 px wide",
-            source: "D47",
-            judge: |r| {
-                let (mut worst, mut words) = (0.0_f64, Vec::new());
-                for (width, expected, within) in [
-                    (2, 2.4, 0.05),
-                    (4, 1.5, 0.05),
-                    (6, 0.85, 0.005),
-                    (8, 0.34, 0.005),
-                    (12, 0.014, 0.0005),
-                ] {
-                    let found = outside(r, "program", width)?;
-                    worst = worst.max((found - expected).abs() / within);
-                    words.push(format!("{found:.3}"));
-                }
-                Ok(Finding::new(
-                    worst <= 1.0,
-                    format!("{} px", words.join(", ")),
-                ))
-            },
-        },
-        Claim {
-            says: "so x tanh(w x/σ²) = w has it, for bars of 4 px and more",
-            source: "theory §10.3",
-            judge: |r| {
-                let mut worst = 0.0_f64;
-                for width in WIDTHS.into_iter().filter(|&width| width >= 4) {
-                    let apart = outside(r, "program", width)? - outside(r, "theory", width)?;
-                    worst = worst.max(apart.abs());
-                }
+        claim(
+            "the report's force rests 2.4, 1.5, 0.85, 0.34 and 0.014 px outside the edges of bars \
+               2, 4, 6, 8 and 12 px wide [D47]",
+        )
+        .judged(|r| {
+            let (mut worst, mut words) = (0.0_f64, Vec::new());
+            for (width, expected, within) in [
+                (2, 2.4, 0.05),
+                (4, 1.5, 0.05),
+                (6, 0.85, 0.005),
+                (8, 0.34, 0.005),
+                (12, 0.014, 0.0005),
+            ] {
+                let found = outside(r, "program", width)?;
+                worst = worst.max((found - expected).abs() / within);
+                words.push(format!("{found:.3}"));
+            }
+            Ok(Finding::new(
+                worst <= 1.0,
+                format!("{} px", words.join(", ")),
+            ))
+        }),
+        claim("so x tanh(w x/σ²) = w has it, for bars of 4 px and more [theory §10.3]").judged(
+            |r| {
+                let wide = WIDTHS.into_iter().filter(|&width| width >= 4);
+                let apart =
+                    |width| Ok(outside(r, "program", width)? - outside(r, "theory", width)?);
+                let worst = most(
+                    wide.map(apart)
+                        .collect::<Result<Vec<f64>>>()?
+                        .iter()
+                        .map(|v| v.abs()),
+                );
                 Ok(Finding::new(
                     worst < 0.06,
                     format!("{worst:.3} px apart at most"),
                 ))
             },
-        },
-        Claim {
-            says: "the corrected force does the same: it is the smoothing, not a slip, that pushes edges apart",
-            source: "theory §10.3",
-            judge: |r| {
-                let mut worst = 0.0_f64;
-                for width in WIDTHS {
-                    let apart = outside(r, "program", width)? - outside(r, "corrected", width)?;
-                    worst = worst.max(apart.abs());
-                }
-                Ok(Finding::new(
-                    worst < 0.01,
-                    format!("{worst:.4} px apart at most"),
-                ))
+        ),
+        claim(
+            "the corrected force does the same: it is the smoothing, not a slip, that pushes edges \
+               apart [theory §10.3]",
+        )
+        .when(&[close("program @ bars", "corrected @ bars", 0.01)]),
+        claim("less smoothing helps: two passes are exact from 6 px on [theory §10.3]").judged(
+            |r| {
+                let narrow = outside(r, "fewer passes", 2)?;
+                let wide = outside(r, "fewer passes", 6)?;
+                let words = format!("{wide:.4} px at 6 px; still {narrow:.2} px at 2 px");
+                Ok(Finding::new(wide.abs() < 0.01 && narrow > 0.1, words))
             },
-        },
-        Claim {
-            says: "less smoothing helps: two passes are exact from 6 px on",
-            source: "theory §10.3",
-            judge: |r| {
-                let (narrow, wide) = (
-                    outside(r, "fewer passes", 2)?,
-                    outside(r, "fewer passes", 6)?,
-                );
-                Ok(Finding::new(
-                    wide.abs() < 0.01 && narrow > 0.1,
-                    format!("{wide:.4} px at 6 px; still {narrow:.2} px at 2 px"),
-                ))
-            },
-        },
-        Claim {
-            says: "the sign of the edge does not help: the steepest place is where it was",
-            source: "theory §10.3",
-            judge: |r| {
-                let mut worst = 0.0_f64;
-                for width in WIDTHS {
-                    let apart = outside(r, "signed edge", width)? - outside(r, "corrected", width)?;
-                    worst = worst.max(apart.abs());
-                }
-                Ok(Finding::new(
-                    worst < 0.15,
-                    format!("{worst:.3} px apart at most"),
-                ))
-            },
-        },
-        Claim {
-            says: "but with the sign no node is drawn to the other edge",
-            source: "theory",
-            judge: |r| {
-                judged(
-                    r,
-                    &[
-                        above("corrected: zeros that attract; bar of 8 px", 1.5),
-                        below("signed edge: zeros that attract; bar of 8 px", 1.5),
-                    ],
-                )
-            },
-        },
-        Claim {
-            says: "two regions, which look at no edge, are exact at every width",
-            source: "[chanvese01]",
-            judge: |r| {
-                let mut worst = 0.0_f64;
-                for width in WIDTHS {
-                    worst = worst.max(outside(r, "two regions", width)?.abs());
-                }
-                Ok(Finding::new(
-                    worst < 0.01,
-                    format!("{worst:.4} px off at most"),
-                ))
-            },
-        },
+        ),
+        claim(
+            "the sign of the edge does not help: the steepest place is where it was [theory §10.3]",
+        )
+        .when(&[close("signed edge @ bars", "corrected @ bars", 0.15)]),
+        claim("but with the sign no node is drawn to the other edge [theory]").when(&[
+            above("corrected: zeros that attract; bar of 8 px", 1.5),
+            below("signed edge: zeros that attract; bar of 8 px", 1.5),
+        ]),
+        claim("two regions, which look at no edge, are exact at every width [[chanvese01]]")
+            .when(&[near("two regions @ bars", 0.0, 0.01)]),
     ],
     run,
     draw,
 };
 
 /// How far outside the true edge a force rests, by the table.
-fn outside(record: &Record, kind: &str, width: usize) -> Result<f64, SandboxError> {
+fn outside(record: &Record, kind: &str, width: usize) -> Result<f64> {
     let widths = record.told_column("bars", "width")?;
     let found = widths.iter().zip(record.column("bars", kind)?);
     let mut found = found.filter(|(w, _)| (*w - real(width)).abs() < 0.5);
@@ -162,15 +112,9 @@ fn outside(record: &Record, kind: &str, width: usize) -> Result<f64, SandboxErro
 
 /// The bar along a row.
 fn bar(width: usize) -> Vec<f64> {
-    (0..LENGTH)
-        .map(|x| {
-            if (FIRST..FIRST + width).contains(&x) {
-                OBJECT
-            } else {
-                AROUND
-            }
-        })
-        .collect()
+    let inside = FIRST..FIRST + width;
+    let level = |x| if inside.contains(&x) { OBJECT } else { AROUND };
+    (0..LENGTH).map(level).collect()
 }
 
 fn left_edge() -> f64 {
@@ -184,7 +128,7 @@ const FINE: usize = 20;
 fn rests(at: &dyn Fn(f64) -> f64) -> Vec<f64> {
     let place = |i: usize| real(i) / real(FINE);
     let values: Vec<f64> = (FINE..(LENGTH - 1) * FINE).map(|i| at(place(i))).collect();
-    let least = 1e-3 * values.iter().map(|v| v.abs()).fold(0.0, f64::max);
+    let least = 1e-3 * most(values.iter().map(|v| v.abs()));
     let mut forwards = None;
     let mut out = Vec::new();
     for (i, &value) in values.iter().enumerate() {
@@ -206,10 +150,9 @@ fn program(width: usize) -> impl Fn(f64) -> f64 {
     let sampled = force(&smooth_binomial(&bar(width), REPORT_PASSES));
     move |x| {
         let cell = x.floor().clamp(0.0, real(LENGTH - 2));
-        let place = (0..LENGTH)
+        let place = (0..LENGTH - 2)
             .find(|&i| real(i) >= cell)
-            .unwrap_or(0)
-            .min(LENGTH - 2);
+            .unwrap_or(LENGTH - 2);
         sampled[place] + (x - cell) * (sampled[place + 1] - sampled[place])
     }
 }
@@ -218,27 +161,24 @@ fn program(width: usize) -> impl Fn(f64) -> f64 {
 type Along = Box<dyn Fn(f64) -> f64>;
 
 /// The force of each kind along the row, with the outward normal of the bar's right edge.
-fn kinds(width: usize) -> Result<Vec<Along>, SandboxError> {
+fn kinds(width: usize) -> Result<Vec<Along>> {
     let row = bar(width);
     let picture = Grid::from_shape_fn((ROWS, LENGTH), |(_, x)| row[x]);
     let along = |x: f64| DVec2::new(x, real(ROWS / 2));
     let edge = |passes: u32| {
-        let rule = EdgeForce {
-            smoothing: Smoothing::Binomial(passes),
-            gain: 1.0,
-        };
-        edge_force(&picture, &rule).map_err(SandboxError::refused(ID))
+        let smoothing = Smoothing::Binomial(passes);
+        edge_force(
+            &picture,
+            &EdgeForce {
+                smoothing,
+                gain: 1.0,
+            },
+        )
     };
     let (corrected, few) = (edge(REPORT_PASSES)?, edge(FEW)?);
-    let signed = SignedEdge::new(
-        &picture,
-        Smoothing::Binomial(REPORT_PASSES),
-        Polarity::BrightToDark,
-        1.0,
-    )
-    .map_err(SandboxError::refused(ID))?;
-    let regions = TwoRegions::new(&picture, 1.0 / (OBJECT - AROUND).powi(2))
-        .map_err(SandboxError::refused(ID))?;
+    let smoothing = Smoothing::Binomial(REPORT_PASSES);
+    let signed = SignedEdge::new(&picture, smoothing, Polarity::BrightToDark, 1.0)?;
+    let regions = TwoRegions::new(&picture, 1.0 / (OBJECT - AROUND).powi(2))?;
     let (left, middle) = (left_edge(), left_edge() + 0.5 * real(width));
     Ok(vec![
         Box::new(program(width)),
@@ -250,16 +190,16 @@ fn kinds(width: usize) -> Result<Vec<Along>, SandboxError> {
             if x <= middle {
                 return 0.0;
             }
-            let (top, bottom) = (-0.5, real(ROWS) - 0.5);
-            let node = along(x);
-            let polygon = [
-                DVec2::new(left, top),
-                DVec2::new(x, top),
-                node,
-                DVec2::new(x, bottom),
-                DVec2::new(left, bottom),
+            let (top, bottom, node) = (-0.5, real(ROWS) - 0.5, along(x));
+            let corners = [
+                (left, top),
+                (x, top),
+                node.into(),
+                (x, bottom),
+                (left, bottom),
             ];
             let mut push = [0.0; 5];
+            let polygon = corners.map(DVec2::from);
             regions.push_into(&polygon, &mut RegionScratch::default(), &mut push);
             push[2]
         }),
@@ -280,140 +220,98 @@ fn theory(half: f64, sigma_squared: f64) -> f64 {
     0.5 * (low + high)
 }
 
-fn run() -> Result<Record, SandboxError> {
+fn run() -> Result {
     let mut record = Record::default();
-    let mut columns: Vec<Vec<f64>> = vec![Vec::new(); KINDS.len()];
+    let mut columns: [Vec<f64>; 5] = Default::default();
     for width in WIDTHS {
         let right = left_edge() + real(width);
         let forces = kinds(width)?;
         for ((name, at), column) in KINDS.into_iter().zip(&forces).zip(&mut columns) {
             let found = rests(at.as_ref());
-            let last = found.last().copied().unwrap_or(f64::NAN);
-            column.push(last - right);
+            column.push(found.last().copied().unwrap_or(f64::NAN) - right);
             if width == 8 {
-                record.note(
-                    format!("{name}: zeros that attract; bar of 8 px"),
-                    real(found.len()),
-                    "",
-                    Tolerance::EXACT,
-                );
+                let zeros = format!("{name}: zeros that attract; bar of 8 px");
+                record.note(zeros, real(found.len()), EXACT);
             }
         }
-        if SHOWN.contains(&width) {
+        if let Some((_, table)) = SHOWN.iter().find(|shown| shown.0 == width) {
             let middle = left_edge() + 0.5 * real(width);
             let x: Vec<f64> = (0..=400).map(|i| 0.1 * real(i) - 20.0).collect();
-            let mut table = Table::raw(match width {
-                4 => "bar-4",
-                8 => "bar-8",
-                _ => "bar-16",
-            })
-            .with("x", "px", Tolerance::EXACT, x.clone());
+            let mut table = Table::raw(table).exact("x [px]", x.clone());
             for (name, at) in KINDS.into_iter().zip(&forces) {
                 let values: Vec<f64> = x.iter().map(|&x| at(middle + x)).collect();
-                let most = values.iter().map(|v| v.abs()).fold(0.0, f64::max);
-                let share = values.iter().map(|v| v / most).collect();
-                table = table.with(name, "of the largest", Tolerance::ROUNDING, share);
+                let largest = most(values.iter().map(|v| v.abs()));
+                let share = values.iter().map(|v| v / largest);
+                table = table.exact(format!("{name} [of the largest]"), share);
             }
             record.keep(table);
         }
     }
-    let widths: Vec<f64> = WIDTHS.into_iter().map(real).collect();
+    let widths = WIDTHS.map(real);
     // the passes, and the two derivatives that average over two pixels each
-    let sigma_squared = f64::from(REPORT_PASSES) / 2.0 + 2.0 / 3.0;
-    let ideal = widths
-        .iter()
-        .map(|width| theory(0.5 * width, sigma_squared) - 0.5 * width)
-        .collect();
-    let place = Tolerance::Absolute(1e-6);
-    let mut table = Table::new("bars").with("width", "px", Tolerance::EXACT, widths);
+    let square = f64::from(REPORT_PASSES) / 2.0 + 2.0 / 3.0;
+    let ideal = widths.map(|width| theory(0.5 * width, square) - 0.5 * width);
+    let mut table = Table::new("bars").exact("width [px]", widths);
     for (name, column) in KINDS.into_iter().zip(columns) {
-        table = table.with(name, "px", place, column);
+        table = table.with(format!("{name} [px]"), 1e-6, column);
     }
-    record.keep(table.with("theory", "px", place, ideal));
+    record.keep(table.with("theory [px]", 1e-6, ideal));
     Ok(record)
 }
 
-const COLORS: [Color; 5] = [
-    Color::RED,
-    Color::BLUE,
-    Color::SKY,
-    Color::PURPLE,
-    Color::GREEN,
-];
-const WORDS: [&str; 5] = [
-    "the program, 20 passes",
-    "corrected, 20 passes",
-    "corrected, 2 passes",
-    "signed edge, 20 passes",
-    "two regions",
+/// Colors and words of the kinds.
+const DRAWN: [(Color, &str); 5] = [
+    (Color::RED, "the program, 20 passes"),
+    (Color::BLUE, "corrected, 20 passes"),
+    (Color::SKY, "corrected, 2 passes"),
+    (Color::PURPLE, "signed edge, 20 passes"),
+    (Color::GREEN, "two regions"),
 ];
 
-fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
-    let mut off = Panel::new(
+fn draw(record: &Record) -> Drawn {
+    let width = Axis::new("width of the bar / px", 0.0, 17.0).with_ticks(9);
+    let place = Axis::new("outside the true edge / px", -0.25, 2.75).with_ticks(7);
+    let theory = line(record.points("bars", "width", "theory")?, Color::GREY).dashed();
+    let mut off = plot(
         "where the force of the right edge comes to rest",
-        Axis::new("width of the bar / px", 0.0, 17.0).with_ticks(9),
-        Axis::new("outside the true edge / px", -0.25, 2.75).with_ticks(7),
+        width,
+        place,
     )
-    .with(
-        Line::new(record.points("bars", "width", "theory")?, Color::GREY)
-            .dashed()
-            .named("theory: x tanh(w x/σ²) = w"),
-    );
-    for (i, name) in KINDS.into_iter().enumerate() {
+    .with(theory.named("theory: x tanh(w x/σ²) = w"));
+    for (i, (name, (color, words))) in KINDS.into_iter().zip(DRAWN).enumerate() {
         let points = record.points("bars", "width", name)?;
         let radius = if name == "program" { 3.2 } else { 1.8 };
-        off = off.with(Layer::Dots {
-            points: points.clone(),
-            radius,
-            color: COLORS[i],
-            label: WORDS[i].to_owned(),
-        });
+        off = off.with(dots(points.clone(), radius, color).named(words));
         if i >= 2 {
-            off = off.with(Line::new(points, COLORS[i]).weighing(0.7));
+            off = off.with(line(points, color).weighing(0.7));
         }
     }
     let mut panels = Vec::new();
-    for width in SHOWN {
-        let table = match width {
-            4 => "bar-4",
-            8 => "bar-8",
-            _ => "bar-16",
-        };
+    for (width, table) in SHOWN {
         let half = 0.5 * real(width);
-        let mut panel = Panel::new(
-            format!("force along a bar of {width} px"),
-            Axis::new("from the bar's middle / px", -14.0, 14.0).with_ticks(8),
-            Axis::new(
-                if width == 4 {
-                    "share of its largest"
-                } else {
-                    ""
-                },
-                -1.1,
-                1.1,
-            )
-            .with_ticks(5),
-        )
-        .with(Layer::Area {
-            points: vec![(-half, -1.1), (half, -1.1), (half, 1.1), (-half, 1.1)],
-            color: Color::YELLOW,
-            opacity: 0.35,
-        })
-        .with(Line::new(vec![(-14.0, 0.0), (14.0, 0.0)], Color::GREY).weighing(0.6));
-        for (i, name) in KINDS.into_iter().enumerate().skip(1) {
-            if name == "fewer passes" {
-                continue;
+        let bar = [(-half, -1.1), (half, -1.1), (half, 1.1), (-half, 1.1)];
+        let words = if width == 4 {
+            "share of its largest"
+        } else {
+            ""
+        };
+        let place = Axis::new("from the bar's middle / px", -14.0, 14.0).with_ticks(8);
+        let force = Axis::new(words, -1.1, 1.1).with_ticks(5);
+        let mut panel = plot(format!("force along a bar of {width} px"), place, force)
+            .with(area(bar, Color::YELLOW, 0.35))
+            .with(line([(-14.0, 0.0), (14.0, 0.0)], Color::GREY).weighing(0.6));
+        for (name, (color, _)) in KINDS.into_iter().zip(DRAWN).skip(1) {
+            if name != "fewer passes" {
+                panel = panel.with(line(record.points(table, "x", name)?, color));
             }
-            panel = panel.with(Line::new(record.points(table, "x", name)?, COLORS[i]));
         }
         panels.push(panel);
     }
-    let figure = Figure::new("§4.2.1  Two edges repel each other (D47)", 860.0)
-        .with(330.0, vec![off])
-        .with(250.0, panels);
-    Ok(vec![Artefact::figure(
+    Artefact::only(
         "Above: how far outside the right edge of a bar each force vanishes. Below: the forces along three bars \
          (yellow), colors as above; the signed edge and the regions are those a node on the right side feels.",
-        figure,
-    )])
+        Figure::new("§4.2.1  Two edges repel each other (D47)", 860.0)
+            .with(330.0, vec![off])
+            .with(250.0, panels),
+    )
 }

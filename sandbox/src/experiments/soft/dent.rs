@@ -1,198 +1,116 @@
 //! A bouncing ring that dents for good.
 
-use super::course::{account, crowd_of, picture, shots, times, wall, watch};
-use crate::demand::{above, judged, less, near};
-use crate::draw::{Axis, Color, Figure, Line, Panel};
-use crate::experiments::motion::changed_scene;
-use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance};
-use glam::DVec2;
+use crate::prelude::*;
 
-const ID: &str = "soft-dent";
+/// When it is drawn, besides the end.
+const SHOWN: [f64; 5] = [0.0, 1.7, 2.2, 3.0, 4.0];
 
 /// A ring that yields, and one that does not.
 pub(crate) const DENT: Experiment = Experiment {
-    id: ID,
+    id: "soft-dent",
     title: "A ring that dents for good",
     place: "beyond",
     question: "A ring falls on the floor and bounces. Where an edge is strained beyond the yield strain its rest shape \
                gives way: does it keep the dent, where the elastic ring does not?",
     claims: &[
-        Claim {
-            says: "the shape at rest is no circle any more",
-            source: "plastic flow",
-            judge: |r| {
-                judged(
-                    r,
-                    &[
-                        above("plastic: width over height of the rest shape", 1.1),
-                        near("elastic: width over height of the rest shape", 1.0, 1e-12),
-                    ],
-                )
-            },
-        },
-        Claim {
-            says: "denting takes energy from the bounce",
-            source: "plastic flow",
-            judge: |r| {
-                judged(
-                    r,
-                    &[less(
-                        "plastic: height of the first bounce",
-                        0.9,
-                        "elastic: height of the first bounce",
-                    )],
-                )
-            },
-        },
-        Claim {
-            says: "the account closes to rounding, what yielding took counted in",
-            source: "the ledger of a crowd",
-            judge: |r| {
-                let (a, b) = (
-                    r.number("plastic: gap of the account")?,
-                    r.number("elastic: gap of the account")?,
-                );
-                Ok(Finding::new(
-                    a.max(b) < 1e-9,
-                    format!("gaps {a:.0e} and {b:.0e}"),
-                ))
-            },
-        },
+        claim("the shape at rest is no circle any more [plastic flow]").when(&[
+            above("plastic: width over height of the rest shape", 1.1),
+            near("elastic: width over height of the rest shape", 1.0, 1e-12),
+        ]),
+        claim("denting takes energy from the bounce [plastic flow]").when(&[less(
+            "plastic: height of the first bounce",
+            0.9,
+            "elastic: height of the first bounce",
+        )]),
     ],
     run,
     draw,
 };
 
-fn run() -> Result<Record, SandboxError> {
+fn run() -> Result {
     let mut record = Record::default();
     for name in ["plastic", "elastic"] {
-        let mut scene = changed_scene(ID, "dented-ring", &[])?;
+        let mut scene = scene_with("dented-ring", &[])?;
         if name == "elastic"
             && let Some(company) = &mut scene.company
         {
             company.upkeep.plastic = None;
         }
         let (steps, dt) = (scene.plan.until.steps, scene.plan.dt);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "some thousand"
-        )]
-        let at = |t: f64| (t / dt).round() as u64;
-        let chosen: Vec<u64> = [0.0, 1.7, 2.2, 3.0, 4.0]
-            .map(at)
-            .into_iter()
-            .chain([steps])
-            .collect();
-        let mut crowd = crowd_of(ID, &scene)?;
+        let mut group = group(&scene)?;
         let every: Vec<u64> = (0..=steps / 50).map(|k| 50 * k).collect();
-        let course = watch(ID, &mut crowd, steps, 10, &every)?;
-        course.note(&mut record, name, 1e-3);
-        let rest = &crowd.members()[0].snake().body().rest;
+        let mut seen = watch(&mut group, steps, 10, &every)?;
+        seen.note(&mut record, name, 1e-3);
+        let rest = &group.members()[0].snake().body().rest;
         let wide = |k: usize| {
-            let (low, high) = rest
-                .iter()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| {
-                    (a.min(p[k]), b.max(p[k]))
-                });
+            let (low, high) = range(rest.iter().map(|p| p[k]), 0.0);
             high - low
         };
-        let like = Tolerance::Relative(0.01);
-        record.note(
-            format!("{name}: width over height of the rest shape"),
-            wide(0) / wide(1),
-            "",
-            like,
-        );
+        let shape = format!("{name}: width over height of the rest shape");
+        record.note(shape, wide(0) / wide(1), share(0.01));
         // how high its center is, over time; the first bounce is the highest after the lowest of the fall
-        let way: Vec<(f64, f64)> = course
-            .shots
-            .iter()
-            .map(|shot| (shot.0, elastic::center(&shot.3, None).y))
-            .collect();
-        let turn = way
-            .windows(2)
-            .position(|pair| pair[1].1 > pair[0].1)
-            .unwrap_or(0);
-        let rise = way[turn..].iter().map(|p| p.1).fold(0.0, f64::max);
-        record.note(
-            format!("{name}: height of the first bounce"),
-            rise,
-            "px",
-            like,
-        );
-        let (table, account, center) = match name {
-            "plastic" => ("plastic", "account", "center-plastic"),
-            _ => ("elastic", "account-elastic", "center-elastic"),
+        let frames = seen.run.frames.iter();
+        let way = frames.map(|frame| (frame.t, elastic::center(&frame.curves[0].nodes, None).y));
+        let way: Vec<(f64, f64)> = way.collect();
+        let turn = way.windows(2).position(|pair| pair[1].1 > pair[0].1);
+        let rise = most(way[turn.unwrap_or(0)..].iter().map(|p| p.1));
+        let bounce = format!("{name}: height of the first bounce [px]");
+        record.note(bounce, rise, share(0.01));
+        let center = if name == "plastic" {
+            "center-plastic"
+        } else {
+            "center-elastic"
         };
-        let mut seen = course;
-        let near = |t: f64| {
-            chosen.iter().any(|&step| {
-                (crate::real(usize::try_from(step).unwrap_or(0)) * dt - t).abs() < 25.0 * dt
-            })
+        record.keep(Table::raw(center).pairs("t [s]", "y [px]", &way));
+        let shown = SHOWN.map(|t| real_steps(steps_in(t, dt)));
+        let shown = |t: f64| {
+            shown
+                .iter()
+                .chain([&real_steps(steps)])
+                .any(|&step| (step * dt - t).abs() < 25.0 * dt)
         };
-        seen.shots.retain(|shot| near(shot.0));
-        seen.keep(&mut record, account, table);
-        record.keep(
-            Table::raw(center)
-                .with(
-                    "t",
-                    "s",
-                    Tolerance::EXACT,
-                    way.iter().map(|p| p.0).collect(),
-                )
-                .with(
-                    "y",
-                    "px",
-                    Tolerance::EXACT,
-                    way.iter().map(|p| p.1).collect(),
-                ),
-        );
+        seen.run.frames.retain(|frame| shown(frame.t));
+        record.keep_run(name, seen.run);
     }
     Ok(record)
 }
 
-fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
+fn draw(record: &Record) -> Drawn {
     let mut figure = Figure::new("A bouncing ring that dents for good", 1000.0);
-    for (name, color) in [("plastic", Color::RED), ("elastic", Color::BLUE)] {
-        let all = shots(record, name)?;
-        let panels = times(&all)
-            .into_iter()
-            .map(|t| {
-                let title = format!("{name}, t = {t:.1} s");
-                picture(title, &all, t, [-4.6, -0.5, 4.6, 12.5], &|_| color)
-                    .with(wall(DVec2::new(-4.6, 0.0), DVec2::new(4.6, 0.0)))
-            })
-            .collect();
-        figure = figure.with(230.0, panels);
-    }
-    let mut height = Panel::new(
+    let mut height = plot(
         "height of the center",
-        Axis::new("t / s", 0.0, 16.0),
-        Axis::new("y / px", 0.0, 12.0),
+        ("t / s", 0.0, 16.0),
+        ("y / px", 0.0, 12.0),
     );
-    for (table, name, color) in [
-        ("center-plastic", "plastic", Color::RED),
-        ("center-elastic", "elastic", Color::BLUE),
+    for (name, center, color) in [
+        ("plastic", "center-plastic", Color::RED),
+        ("elastic", "center-elastic", Color::BLUE),
     ] {
-        height = height.with(Line::new(record.points(table, "t", "y")?, color).named(name));
+        let panels = record.run(name)?.frames.iter().map(|frame| {
+            let title = format!("{name}, t = {:.1} s", frame.t);
+            picture(title, &frame.curves, [-4.6, -0.5, 4.6, 12.5], &|_| color)
+                .with(wall((-4.6, 0.0), (4.6, 0.0)))
+        });
+        figure = figure.with(230.0, panels.collect());
+        height = height.with(line(record.points(center, "t", "y")?, color).named(name));
     }
+    let terms = [
+        ("kinetic", "kinetic", Color::BLUE),
+        ("elastic", "elastic", Color::GREEN),
+        ("outside", "gravity", Color::GREY),
+        ("between", "between", Color::YELLOW),
+        ("damping", "lost to damping", Color::ORANGE),
+        ("contact", "lost on the floor", Color::RED),
+        ("upkeep", "lost by yielding", Color::PURPLE),
+    ];
     let kept = account(
         record,
-        "account",
+        "plastic",
         "the account of the ring that yields",
-        &[
-            ("kinetic", "kinetic", Color::BLUE),
-            ("elastic", "elastic", Color::GREEN),
-            ("outside", "gravity", Color::GREY),
-            ("between", "between", Color::YELLOW),
-            ("damping", "lost to damping", Color::ORANGE),
-            ("contact", "lost on the floor", Color::RED),
-            ("upkeep", "lost by yielding", Color::PURPLE),
-        ],
+        &terms,
     )?;
-    Ok(vec![Artefact::figure(
+    Artefact::only(
         "Above: the ring that yields, and below it the elastic one. Last: how high they bounce, and where the energy goes.",
         figure.with(270.0, vec![height, kept]),
-    )])
+    )
 }

@@ -1,155 +1,70 @@
 //! A ball through a funnel of two taut strings.
 
-use super::course::{Course, account, crowd_of, picture, shots, times, wall, watch};
-use crate::demand::{above, below, judged};
-use crate::draw::{Color, Figure, Panel};
-use crate::experiments::motion::changed_scene;
-use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Tolerance};
-use glam::DVec2;
+use crate::prelude::*;
 use scene::Scene;
 
-const ID: &str = "soft-funnel";
-
 /// Whom and how hard.
-const BALLS: [(&str, &str, f64); 2] = [("soft", "through", 1.0), ("hard", "stuck", 8.0)];
+const BALLS: [(&str, f64); 2] = [("soft", 1.0), ("hard", 8.0)];
 
 /// A soft ball, and a hard one.
 pub(crate) const FUNNEL: Experiment = Experiment {
-    id: ID,
+    id: "soft-funnel",
     title: "A ball through a funnel",
     place: "beyond",
     question: "Two taut strings, pinned at both ends, leave an opening narrower than the ball. Does a soft ball pass and \
                a hard one stay, without being pressed through the strings?",
     claims: &[
-        Claim {
-            says: "the soft ball passes an opening narrower than itself",
-            source: "the scene funnel",
-            judge: |r| {
-                judged(
-                    r,
-                    &[below("soft: center at the end", 4.0), below("opening", 1.0)],
-                )
-            },
-        },
-        Claim {
-            says: "the same ball, eight times as hard, stays in it",
-            source: "the same run with another",
-            judge: |r| judged(r, &[above("hard: center at the end", 7.0)]),
-        },
-        Claim {
-            says: "overlap stays below the stop and the way of a step",
-            source: "the contact law",
-            judge: |r| {
-                let (a, b) = (
-                    r.number("soft: deepest overlap")?,
-                    r.number("hard: deepest overlap")?,
-                );
-                let most = r.number("stop and way")?;
-                Ok(Finding::new(
-                    a.max(b) <= most,
-                    format!("{a:.3} px and {b:.3} px, at most {most:.3} px"),
-                ))
-            },
-        },
-        Claim {
-            says: "the account closes to rounding",
-            source: "the ledger of a crowd",
-            judge: |r| {
-                let (a, b) = (
-                    r.number("soft: gap of the account")?,
-                    r.number("hard: gap of the account")?,
-                );
-                Ok(Finding::new(
-                    a.max(b) < 1e-9,
-                    format!("gaps {a:.0e} and {b:.0e}"),
-                ))
-            },
-        },
+        claim("the soft ball passes an opening narrower than itself [the scene funnel]")
+            .when(&[below("soft: center at the end", 4.0), below("opening", 1.0)]),
+        claim("the same ball, eight times as hard, stays in it [the same run with another]")
+            .when(&[above("hard: center at the end", 7.0)]),
+        claim("overlap stays below the stop and the way of a step [the contact law]").judged(|r| {
+            let (a, b) = (
+                r.number("soft: deepest overlap")?,
+                r.number("hard: deepest overlap")?,
+            );
+            let most = r.number("stop and way")?;
+            let words = format!("{a:.3} px and {b:.3} px, at most {most:.3} px");
+            Ok(Finding::new(a.max(b) <= most, words))
+        }),
     ],
     run,
     draw,
 };
 
-fn hardened(factor: f64) -> Result<Scene, SandboxError> {
-    let mut scene = changed_scene(ID, "funnel", &[])?;
+fn hardened(factor: f64) -> Result<Scene> {
+    let mut scene = scene_with("funnel", &[])?;
     let mut body = scene.snake.body().clone();
     let of = |value: &elastic::Profile| factor * value.at(0);
     let m = &body.material;
     body.material = elastic::Material::uniform(of(&m.tether), of(&m.tension), of(&m.rigidity));
-    scene
-        .snake
-        .set_body(body)
-        .map_err(SandboxError::refused(ID))?;
+    scene.snake.set_body(body)?;
     scene.plan.dt /= if factor > 1.0 { 2.0 } else { 1.0 };
     Ok(scene)
 }
 
-fn run() -> Result<Record, SandboxError> {
+fn run() -> Result {
     let mut record = Record::default();
-    let mut most = f64::INFINITY;
-    for (name, table, factor) in BALLS {
+    let mut way = f64::INFINITY;
+    for (name, factor) in BALLS {
         let scene = hardened(factor)?;
         let dt = scene.plan.dt;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "some thousand"
-        )]
-        let at = |t: f64| (t / dt).round() as u64;
-        let steps = at(20.0);
-        let chosen = [at(0.0), at(2.0), at(3.0), at(4.5), steps];
-        let mut crowd = crowd_of(ID, &scene)?;
-        let course: Course = watch(ID, &mut crowd, steps, 20, &chosen)?;
-        course.note(&mut record, name, 0.1);
-        let ball = &crowd.members()[0].state().x;
-        let center = elastic::center(ball, None);
-        let end = Tolerance::Absolute(0.3);
-        record.note(format!("{name}: center at the end"), center.y, "px", end);
-        let stop = scene
-            .company
-            .as_ref()
-            .and_then(|c| c.contact)
-            .map_or(0.0, |c| c.stop);
-        most = most.min(stop + 2.0 * dt * course.fastest);
-        course.keep(
-            &mut record,
-            if factor > 1.0 {
-                "account-hard"
-            } else {
-                "account"
-            },
-            table,
-        );
+        let chosen = [0.0, 2.0, 3.0, 4.5, 20.0].map(|t| steps_in(t, dt));
+        let mut group = group(&scene)?;
+        let seen = watch(&mut group, chosen[4], 20, &chosen)?;
+        seen.note(&mut record, name, 0.1);
+        let center = elastic::center(&group.members()[0].state().x, None);
+        record.note(format!("{name}: center at the end [px]"), center.y, 0.3);
+        let contact = scene.company.as_ref().and_then(|company| company.contact);
+        way = way.min(contact.map_or(0.0, |contact| contact.stop) + 2.0 * dt * seen.fastest);
+        record.keep_run(name, seen.run);
     }
-    record.note("stop and way", most, "px", Tolerance::Absolute(0.05));
-    record.note(
-        "opening",
-        (11.7 - 8.3) / 4.8,
-        "of the width",
-        Tolerance::ROUNDING,
-    );
+    record.note("stop and way [px]", way, 0.05);
+    record.note("opening [of the width]", (11.7 - 8.3) / 4.8, ROUNDING);
     Ok(record)
 }
 
-fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
-    let mut rows = Vec::new();
-    for (name, table, _) in BALLS {
-        let all = shots(record, table)?;
-        let color = move |snake: usize| match (snake, name) {
-            (0, "soft") => Color::BLUE,
-            (0, _) => Color::RED,
-            _ => Color::INK,
-        };
-        let panels: Vec<Panel> = times(&all)
-            .into_iter()
-            .map(|t| {
-                let title = format!("{name}, t = {t:.1} s");
-                picture(title, &all, t, [1.0, -0.6, 19.0, 18.0], &color)
-                    .with(wall(DVec2::new(1.0, 0.0), DVec2::new(19.0, 0.0)))
-            })
-            .collect();
-        rows.push(panels);
-    }
+fn draw(record: &Record) -> Drawn {
     let terms = [
         ("kinetic", "kinetic", Color::BLUE),
         ("elastic", "elastic", Color::GREEN),
@@ -158,19 +73,24 @@ fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
         ("damping", "lost to damping", Color::ORANGE),
         ("contact", "lost in contact", Color::RED),
     ];
-    let accounts = vec![
-        account(record, "account", "the soft ball's account", &terms)?,
-        account(record, "account-hard", "the hard ball's", &terms)?,
-    ];
-    let figure = rows
-        .into_iter()
-        .fold(Figure::new("A ball through a funnel", 1000.0), |f, row| {
-            f.with(230.0, row)
-        })
-        .with(260.0, accounts);
-    Ok(vec![Artefact::figure(
+    let mut figure = Figure::new("A ball through a funnel", 1000.0);
+    let mut accounts = Vec::new();
+    for (name, title, ball) in [
+        ("soft", "the soft ball's account", Color::BLUE),
+        ("hard", "the hard ball's", Color::RED),
+    ] {
+        let color = |snake: usize| if snake == 0 { ball } else { Color::INK };
+        let row = record.run(name)?.frames.iter().map(|frame| {
+            let title = format!("{name}, t = {:.1} s", frame.t);
+            picture(title, &frame.curves, [1.0, -0.6, 19.0, 18.0], &color)
+                .with(wall((1.0, 0.0), (19.0, 0.0)))
+        });
+        figure = figure.with(230.0, row.collect());
+        accounts.push(account(record, name, title, &terms)?);
+    }
+    Artefact::only(
         "The funnel is two snakes pinned at both ends. The soft ball passes; eight times as hard it stays. Below: the \
          terms of the account stand on each other, and their top stays level.",
-        figure,
-    )])
+        figure.with(260.0, accounts),
+    )
 }

@@ -3,6 +3,7 @@
 use glam::{DMat2, DVec2};
 use integrator::problems::Springs;
 use integrator::{Fault, System, Wrapped};
+use sandbox::prelude::*;
 
 /// A round edge beside the middle of the ring: place, radius, steepness and reach.
 const MIDDLE: DVec2 = DVec2::new(0.8, -0.5);

@@ -2,11 +2,8 @@
 
 use super::model::Model;
 use super::{mass_spring, touch, xpbd};
-use crate::SandboxError;
-use crate::experiments::soft::course::{advance, crowd_of};
-use glam::DVec2;
+use sandbox::prelude::*;
 use scene::Scene;
-use snake::Simulation;
 
 /// The steps of both ways of positions, in those of the snake: the same number of passes.
 const SMALL: f64 = 0.25;
@@ -48,7 +45,7 @@ pub(super) struct World {
 
 #[derive(Debug)]
 enum How {
-    Snake(Box<Simulation>),
+    Snake(Box<Group>),
     Springs(Model),
     Positions(Model, usize),
 }
@@ -56,18 +53,13 @@ enum How {
 impl World {
     /// The scene under a method, at `share` of the method's own step: the scene's; nine fortieths of the springs' limit at
     /// the start, the longest of its halves that gets through; of positions four passes in the time of a step of the snake.
-    pub(super) fn new(
-        id: &'static str,
-        scene: &Scene,
-        method: Method,
-        share: f64,
-    ) -> Result<Self, SandboxError> {
+    pub(super) fn new(scene: &Scene, method: Method, share: f64) -> Result<Self> {
         let mut scene = scene.clone();
         let usual = scene.plan.dt;
         let (how, dt) = match method {
             Method::Snake => {
                 scene.plan.dt = share * usual;
-                (How::Snake(Box::new(crowd_of(id, &scene)?)), usual)
+                (How::Snake(Box::new(group(&scene)?)), usual)
             }
             Method::Springs => {
                 let mut model = Model::of(&scene);
@@ -94,9 +86,9 @@ impl World {
         steps * self.dt
     }
 
-    pub(super) fn step(&mut self, id: &'static str) -> Result<(), SandboxError> {
+    pub(super) fn step(&mut self) -> Result<()> {
         match &mut self.how {
-            How::Snake(crowd) => advance(id, crowd)?,
+            How::Snake(group) => advance(group)?,
             How::Springs(model) => mass_spring::step(model, self.dt),
             How::Positions(model, passes) => xpbd::step(model, self.dt, *passes),
         }
@@ -106,9 +98,9 @@ impl World {
 
     /// Steps until that time.
     #[cfg(test)]
-    pub(super) fn go(&mut self, id: &'static str, time: f64) -> Result<(), SandboxError> {
+    pub(super) fn go(&mut self, time: f64) -> Result<()> {
         while self.t() < time - 0.5 * self.dt {
-            self.step(id)?;
+            self.step()?;
         }
         Ok(())
     }
@@ -116,28 +108,28 @@ impl World {
     /// Nodes of curve `k`.
     pub(super) fn curve(&self, k: usize) -> &[DVec2] {
         match &self.how {
-            How::Snake(crowd) => &crowd.members()[k].state().x,
+            How::Snake(group) => &group.members()[k].state().x,
             How::Springs(model) | How::Positions(model, _) => model.nodes(k),
         }
     }
 
     pub(super) fn curves(&self) -> usize {
         match &self.how {
-            How::Snake(crowd) => crowd.members().len(),
+            How::Snake(group) => group.members().len(),
             How::Springs(model) | How::Positions(model, _) => model.curves.len(),
         }
     }
 
     pub(super) fn closed(&self, k: usize) -> bool {
         match &self.how {
-            How::Snake(crowd) => crowd.members()[k].is_closed(),
+            How::Snake(group) => group.members()[k].is_closed(),
             How::Springs(model) | How::Positions(model, _) => model.curves[k].closed,
         }
     }
 
     pub(super) fn momentum(&self) -> DVec2 {
         match &self.how {
-            How::Snake(crowd) => crowd.momentum(),
+            How::Snake(group) => group.momentum(),
             How::Springs(model) | How::Positions(model, _) => model.momentum(),
         }
     }
@@ -145,8 +137,8 @@ impl World {
     /// Energy of motion, and with it that of springs, gas and gravity; between bodies left out.
     pub(super) fn energy(&mut self) -> (f64, f64) {
         match &mut self.how {
-            How::Snake(crowd) => {
-                let all = crowd.energies();
+            How::Snake(group) => {
+                let all = group.energies();
                 let kept = all.kinetic + all.elastic() + all.forces[0];
                 (all.kinetic, kept)
             }
@@ -157,10 +149,21 @@ impl World {
         }
     }
 
+    /// All curves as they are now, under a time of one's own.
+    pub(super) fn frame(&self, t: f64) -> Frame {
+        let curve = |k| Curve {
+            id: k,
+            closed: self.closed(k),
+            nodes: self.curve(k).to_vec(),
+        };
+        let curves = (0..self.curves()).map(curve).collect();
+        Frame { t, curves }
+    }
+
     /// How deep the deepest node is in another curve.
     pub(super) fn deepest(&self) -> f64 {
         match &self.how {
-            How::Snake(crowd) => crowd.deepest(),
+            How::Snake(group) => group.deepest(),
             How::Springs(model) | How::Positions(model, _) => touch::deepest(model),
         }
     }

@@ -1,11 +1,12 @@
 //! One experiment a problem: scan every scheme, note what it takes to come within 1e-3 and 1e-6.
 
 use super::chart::draw;
+use super::effort::to_real;
 use super::judge;
 use super::trial::Trial;
-use super::{apple, edge, least_steps, ring, scan, wall};
-use crate::{Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance};
+use super::{Effort, apple, edge, least_steps, ring, scan, wall};
 use integrator::Scheme;
+use sandbox::prelude::*;
 
 /// Distances from the truth that are asked for, px.
 pub(super) const TARGETS: [(f64, &str); 2] = [(1e-3, "1e-3"), (1e-6, "1e-6")];
@@ -18,147 +19,109 @@ pub(super) fn schemes() -> impl Iterator<Item = Scheme> {
         .filter(|&scheme| scheme != Scheme::GradientFlow)
 }
 
-fn try_all(trial: Result<Trial, SandboxError>) -> Result<Record, SandboxError> {
+fn try_all(trial: Result<Trial>) -> Result {
     let mut trial = trial?;
     let mut record = Record::default();
     if let Some((_, end)) = trial.truth.last() {
         let moved = end.iter().zip(&trial.start.x).map(|(a, b)| a.distance(*b));
-        record.note(
-            "way made by the fastest node",
-            moved.fold(0.0, f64::max),
-            "px",
-            LOOSE,
-        );
+        record.note("way made by the fastest node [px]", most(moved), LOOSE);
     }
     for scheme in schemes() {
         let seen = scan(&mut trial, scheme);
         let name = scheme.name();
         for (target, words) in TARGETS {
             let found = least_steps(&mut trial, scheme, &seen, target);
-            // what is never reached takes for ever
-            let value =
-                |read: fn(&super::Effort) -> f64| found.as_ref().map_or(f64::INFINITY, read);
-            record.note(
-                format!("{name}: steps to {words}"),
-                value(|run| super::effort::to_real(run.steps)),
-                "",
-                LOOSE,
-            );
-            record.note(
-                format!("{name}: forces to {words}"),
-                value(|run| super::effort::to_real(run.forces)),
-                "",
-                LOOSE,
-            );
-            record.note(
-                format!("{name}: time to {words}"),
-                value(|run| 1e6 * run.seconds),
-                "µs",
-                LOOSE,
-            );
-            record.note(
-                format!("{name}: time of its steps to {words}"),
-                value(|run| 1e6 * run.stepping),
-                "µs",
-                LOOSE,
-            );
+            type Read = fn(&Effort) -> f64;
+            let read: [(&str, &str, Read); 4] = [
+                ("steps", "", |run| to_real(run.steps)),
+                ("forces", "", |run| to_real(run.forces)),
+                ("time", "µs", |run| 1e6 * run.seconds),
+                ("time of its steps", "µs", |run| 1e6 * run.stepping),
+            ];
+            for (what, unit, read) in read {
+                // what is never reached takes for ever
+                let value = found.as_ref().map_or(f64::INFINITY, read);
+                record.note(format!("{name}: {what} to {words} [{unit}]"), value, LOOSE);
+            }
         }
-        let column = |read: fn(&super::Effort) -> f64| seen.iter().map(read).collect::<Vec<f64>>();
         record.keep(
             Table::raw(name)
-                .with(
-                    "steps",
-                    "",
-                    LOOSE,
-                    column(|run| super::effort::to_real(run.steps)),
-                )
-                .with(
-                    "forces",
-                    "",
-                    LOOSE,
-                    column(|run| super::effort::to_real(run.forces)),
-                )
-                .with("time", "µs", LOOSE, column(|run| 1e6 * run.seconds))
-                .with("error", "px", LOOSE, column(|run| run.error)),
+                .exact("steps", seen.iter().map(|run| to_real(run.steps)))
+                .exact("forces", seen.iter().map(|run| to_real(run.forces)))
+                .exact("time [µs]", seen.iter().map(|run| 1e6 * run.seconds))
+                .exact("error [px]", seen.iter().map(|run| run.error)),
         );
     }
     let limit = Scheme::Report
         .step_limit(&*trial.system)
         .unwrap_or(f64::NAN);
-    record.note(
-        "report: steps at its largest stable step",
-        (trial.until / limit).ceil(),
-        "",
-        LOOSE,
-    );
+    let steps = (trial.until / limit).ceil();
+    record.note("report: steps at its largest stable step", steps, LOOSE);
     Ok(record)
 }
 
 /// Nothing here is compared with `expected/`.
 const LOOSE: Tolerance = Tolerance::RelativeOrInfinite(1.0);
 
-const EXACT_IN_ONE: Claim = Claim {
-    says: "the exact scheme is within 1e-9 in one step",
-    source: "theory",
-    judge: |r| {
-        let errors = r.column(Scheme::Etd2.name(), "error")?;
-        let error = errors.first().copied().unwrap_or(f64::NAN);
-        Ok(Finding::new(
-            error < 1e-9,
-            format!("{error:.1e} px after one step of 5 s"),
-        ))
-    },
-};
+const EXACT_IN_ONE: Claim =
+    claim("the exact scheme is within 1e-9 in one step [theory]").judged(|r| {
+        let error = r.column(Scheme::Etd2.name(), "error")?[0];
+        let words = format!("{error:.1e} px after one step of 5 s");
+        Ok(Finding::new(error < 1e-9, words))
+    });
 
-const CENTRED: Claim = Claim {
-    says: "centred damping needs fewer forces than the report's scheme for 1e-3",
-    source: "D18, D21",
-    judge: |r| judge::fewer(r, "leapfrog", "report", "1e-3"),
-};
+const CENTRED: Claim = claim(
+    "centred damping needs fewer forces than the report's scheme for 1e-3 [D18, D21]",
+)
+.when(&[less(
+    "leapfrog: forces to 1e-3",
+    1.0,
+    "report: forces to 1e-3",
+)]);
 
-const CHOSEN: Claim = Claim {
-    says: "where a force has a kink, steps chosen by their error are the cheapest way to 1e-6",
-    source: "theory",
-    judge: |r| judge::fewest_of_all(r, "dormand-prince", "1e-6"),
-};
+const CHOSEN: Claim = claim(
+    "where a force has a kink, steps chosen by their error are the cheapest way to 1e-6 [theory]",
+)
+.judged(|r| judge::fewest_of_all(r, "dormand-prince", "1e-6"));
 
-const HUNDREDTH: Claim = Claim {
-    says: "1e-3 in a hundredth of the steps of the report's scheme at its largest stable step",
-    source: "theory",
-    judge: |r| judge::share_of_report(r, 1e-2),
-};
+const HUNDREDTH: Claim = claim(
+    "1e-3 in a hundredth of the steps of the report's scheme at its largest stable step [theory]",
+)
+.judged(|r| judge::share_of_report(r, 1e-2));
 
-const THOUSANDTH: Claim = Claim {
-    says: "1e-3 in a thousandth of the steps of the report's scheme at its largest stable step",
-    source: "theory",
-    judge: |r| judge::share_of_report(r, 1e-3),
-};
+const THOUSANDTH: Claim = claim(
+    "1e-3 in a thousandth of the steps of the report's scheme at its largest stable step [theory]",
+)
+.judged(|r| judge::share_of_report(r, 1e-3));
 
-const LEAPFROG_FIRST: Claim = Claim {
-    says: "centred damping needs fewer forces than the report's scheme for 1e-6",
-    source: "D18, D21",
-    judge: |r| judge::fewer(r, "leapfrog", "report", "1e-6"),
-};
+const LEAPFROG_FIRST: Claim = claim(
+    "centred damping needs fewer forces than the report's scheme for 1e-6 [D18, D21]",
+)
+.when(&[less(
+    "leapfrog: forces to 1e-6",
+    1.0,
+    "report: forces to 1e-6",
+)]);
 
-const IMPLICIT_FIRST: Claim = Claim {
-    says: "one solve a step needs fewer steps than any explicit scheme of order 2 or less",
-    source: "theory",
-    judge: |r| judge::fewer_steps(r, "newmark", &["report", "leapfrog"], "1e-3"),
-};
+const IMPLICIT_FIRST: Claim = claim(
+    "one solve a step needs fewer steps than any explicit scheme of order 2 or less [theory]",
+)
+.when(&[
+    less("newmark: steps to 1e-3", 1.0, "report: steps to 1e-3"),
+    less("newmark: steps to 1e-3", 1.0, "leapfrog: steps to 1e-3"),
+]);
 
 const RING: &str = "A damped ring of 200 nodes in gravity, bent in waves of 2, 3, 5 and 10: μ = γ = ω₀ = g = 1, 5 s. Truth: \
                     each wave's own closed formula.";
 const EDGE: &str = "A light stiff ring (μ = 0.01, γ = ω₀ = 1) caught by a smooth round edge, 5 s, judged half way and \
                     at the end. Truth: Dormand and Prince at 1e-12.";
 
-type Run = fn() -> Result<Record, SandboxError>;
-
 const fn problem(
     id: &'static str,
     title: &'static str,
     question: &'static str,
     claims: &'static [Claim],
-    run: Run,
+    run: fn() -> Result,
 ) -> Experiment {
     Experiment {
         id,

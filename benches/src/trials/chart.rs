@@ -1,9 +1,8 @@
 //! Error against forces and against time, one color a scheme.
 
-use super::trials::schemes;
-use crate::draw::{Axis, Color, Figure, Layer, Line, Panel};
-use crate::{Artefact, Record, SandboxError};
+use super::problems::schemes;
 use integrator::Scheme;
+use sandbox::prelude::*;
 
 /// The color of a scheme, the same on every chart: explicit ones warm, implicit ones cool, exact
 /// ones dark.
@@ -28,75 +27,61 @@ pub(super) fn color(scheme: Scheme) -> Color {
 }
 
 /// Decades that hold all points of a column.
-fn decades(record: &Record, column: &str) -> Result<(f64, f64), SandboxError> {
-    let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
+fn decades(record: &Record, column: &str) -> Result<(f64, f64)> {
+    let mut values = Vec::new();
     for scheme in schemes() {
-        for &value in record.column(scheme.name(), column)? {
-            if value > 0.0 {
-                (low, high) = (low.min(value), high.max(value));
-            }
-        }
+        values.extend(
+            record
+                .column(scheme.name(), column)?
+                .iter()
+                .filter(|value| **value > 0.0),
+        );
     }
-    if low > high {
+    if values.is_empty() {
         return Ok((1.0, 10.0));
     }
-    Ok((
-        10.0_f64.powf(low.log10().floor()),
-        10.0_f64.powf(high.log10().ceil()),
-    ))
+    let decade = |exponent: f64| 10.0_f64.powf(exponent);
+    let low = least(values.iter().copied()).log10().floor();
+    Ok((decade(low), decade(most(values).log10().ceil())))
 }
 
-pub(super) fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
+pub(super) fn draw(record: &Record) -> Drawn {
     let mut panels = Vec::new();
     for (column, label, title) in [
         ("forces", "forces of the whole curve", "work counted"),
         ("time", "time, start included / µs", "work timed"),
     ] {
         let (from, to) = decades(record, column)?;
-        let mut panel = Panel::new(
-            title,
-            Axis::log(label, from, to),
-            Axis::log("largest distance from the truth / px", 1e-12, 1e1).with_ticks(7),
-        );
+        let error = Axis::log("largest distance from the truth / px", 1e-12, 1e1).with_ticks(7);
+        let mut panel = plot(title, Axis::log(label, from, to), error);
         for scheme in schemes() {
-            let points = record.points(scheme.name(), column, "error")?;
-            let points: Vec<(f64, f64)> =
-                points.into_iter().map(|(x, y)| (x, y.max(1e-12))).collect();
+            let points = record.points(scheme.name(), column, "error")?.into_iter();
+            let points: Vec<(f64, f64)> = points.map(|(x, y)| (x, y.max(1e-12))).collect();
             let color = color(scheme);
             panel = panel
-                .with(Line::new(points.clone(), color))
-                .with(Layer::Dots {
-                    points,
-                    radius: 1.6,
-                    color,
-                    label: String::new(),
-                });
+                .with(line(points.clone(), color))
+                .with(dots(points, 1.6, color));
         }
         panels.push(panel);
     }
     panels.push(legend());
-    let figure = Figure::new("Error against work", 1080.0).with(430.0, panels);
-    Ok(vec![Artefact::figure(
+    Artefact::only(
         "Down and left is better. Left: forces asked for. Right: time of a whole run on one thread, start included, on \
          the machine that drew this.",
-        figure,
-    )])
+        Figure::new("Error against work", 1080.0).with(430.0, panels),
+    )
 }
 
 /// A panel without axes that names the colors.
 fn legend() -> Panel {
-    let mut panel = Panel::new("", Axis::new("", 0.0, 1.0), Axis::new("", 0.0, 1.0)).bare();
+    let mut panel = plot("", ("", 0.0, 1.0), ("", 0.0, 1.0)).bare();
     panel.share = 0.42;
     for scheme in schemes() {
         let name = match scheme {
             Scheme::DormandPrince { .. } => scheme.name().to_owned(),
             _ => scheme.to_string(),
         };
-        panel = panel.with(
-            Line::new(Vec::new(), color(scheme))
-                .weighing(1.6)
-                .named(name),
-        );
+        panel = panel.with(line([], color(scheme)).weighing(1.6).named(name));
     }
-    panel.legend_at(crate::draw::Corner::TopLeft)
+    panel.legend_at(Corner::TopLeft)
 }

@@ -1,10 +1,9 @@
 //! The problems every scheme is tried on.
 
 use super::edge::EdgeRing;
-use crate::{SandboxError, real};
-use glam::DVec2;
 use integrator::problems::{self, spring_motion};
 use integrator::{Scheme, Start, State, System};
+use sandbox::prelude::*;
 use scene::Scene;
 use std::f64::consts::TAU;
 
@@ -68,9 +67,9 @@ fn wave(k: usize, i: usize) -> DVec2 {
 /// # Errors
 ///
 /// None for ratios above 1.
-pub fn ring(ratio: f64, gravity: f64) -> Result<Trial, SandboxError> {
+pub fn ring(ratio: f64, gravity: f64) -> Result<Trial> {
     let rigidity = (ratio - 1.0) / 16.0;
-    let problem = problems::ring(NODES, 1.0, 1.0, [1.0, 0.0, rigidity]).map_err(refused)?;
+    let problem = problems::ring(NODES, 1.0, 1.0, [1.0, 0.0, rigidity])?;
     let mut system = problem.system;
     system.gravity = DVec2::new(0.0, gravity);
     let (rest, until) = (system.rest.clone(), 5.0);
@@ -103,9 +102,8 @@ pub fn ring(ratio: f64, gravity: f64) -> Result<Trial, SandboxError> {
 /// # Errors
 ///
 /// Whatever the reference refuses.
-pub fn edge(ratio: f64) -> Result<Trial, SandboxError> {
-    let problem =
-        problems::ring(NODES, 0.01, 1.0, [1.0, 0.0, (ratio - 1.0) / 16.0]).map_err(refused)?;
+pub fn edge(ratio: f64) -> Result<Trial> {
+    let problem = problems::ring(NODES, 0.01, 1.0, [1.0, 0.0, (ratio - 1.0) / 16.0])?;
     let start = State::at_rest(problem.system.rest.clone());
     referred(Box::new(EdgeRing::new(problem.system)), start, 5.0, 1e-12)
 }
@@ -115,8 +113,8 @@ pub fn edge(ratio: f64) -> Result<Trial, SandboxError> {
 /// # Errors
 ///
 /// Whatever the scene or the reference refuses.
-pub fn wall() -> Result<Trial, SandboxError> {
-    let scene = Scene::named("rigid-ball-penalty").map_err(refused)?;
+pub fn wall() -> Result<Trial> {
+    let scene = Scene::named("rigid-ball-penalty")?;
     referred(Box::new(scene.snake), scene.start, 7.0, 1e-12)
 }
 
@@ -125,8 +123,8 @@ pub fn wall() -> Result<Trial, SandboxError> {
 /// # Errors
 ///
 /// Whatever the scene or the reference refuses.
-pub fn apple() -> Result<Trial, SandboxError> {
-    let scene = Scene::named("apple").map_err(refused)?;
+pub fn apple() -> Result<Trial> {
+    let scene = Scene::named("apple")?;
     referred(Box::new(scene.snake), scene.start, 20.0, 1e-11)
 }
 
@@ -136,16 +134,14 @@ fn referred(
     start: State,
     until: f64,
     tolerance: f64,
-) -> Result<Trial, SandboxError> {
+) -> Result<Trial> {
     let mut state = start.clone();
     let scheme = Scheme::DormandPrince { tolerance };
     let half = 0.5 * until;
-    let mut stepper = scheme
-        .start(&mut *system, &state, half, Start::SecondOrder)
-        .map_err(refused)?;
+    let mut stepper = scheme.start(&mut *system, &state, half, Start::SecondOrder)?;
     let mut truth = Vec::new();
     for share in [0.5, 1.0] {
-        stepper.step(&mut *system, &mut state).map_err(refused)?;
+        stepper.step(&mut *system, &mut state)?;
         truth.push((share, state.x.clone()));
     }
     Ok(Trial {
@@ -155,8 +151,4 @@ fn referred(
         truth,
         care: Care::Timed,
     })
-}
-
-fn refused<E: std::fmt::Display>(reason: E) -> SandboxError {
-    SandboxError::refused("integrators")(reason)
 }

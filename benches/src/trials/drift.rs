@@ -1,10 +1,8 @@
 //! A million steps without damping: who keeps the energy?
 
 use super::chart::color;
-use crate::draw::{Axis, Corner, Figure, Line, Panel};
-use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
-use glam::DVec2;
 use integrator::{Scheme, Start, System, kinetic_energy, problems};
+use sandbox::prelude::*;
 
 const NODES: usize = 32;
 const STEPS: usize = 1_000_000;
@@ -29,34 +27,18 @@ pub(crate) const DRIFT: Experiment = Experiment {
     question: "A ring of 32 nodes swings for ever, at half the largest step of leapfrog. What is its energy after a \
                million steps?",
     claims: &[
-        Claim {
-            says: "leapfrog's energy wavers and does not drift: the last tenth is within what the first was",
-            source: "[hairer03]",
-            judge: |r| {
-                let early = r.number("leapfrog: largest change in the first tenth")?;
-                let late = r.number("leapfrog: largest change in the last tenth")?;
-                Ok(Finding::new(
-                    late < 1.1 * early,
-                    format!("{late:.2e} after {early:.2e}"),
-                ))
-            },
-        },
-        Claim {
-            says: "Newmark's, Gauss's and the exact scheme change it by rounding only",
-            source: "theory",
-            judge: |r| {
-                let worst = ["newmark", "gauss-4", "exact"]
-                    .map(|name| r.number(&format!("{name}: largest change in the last tenth")));
-                let mut most = 0.0_f64;
-                for one in worst {
-                    most = most.max(one?);
-                }
-                Ok(Finding::new(
-                    most < 1e-8,
-                    format!("at most {most:.1e} of it"),
-                ))
-            },
-        },
+        claim("leapfrog's energy wavers and does not drift: the last tenth is within what the first was \
+               [[hairer03]]")
+            .when(&[less(
+                "leapfrog: largest change in the last tenth",
+                1.1,
+                "leapfrog: largest change in the first tenth",
+            )]),
+        claim("Newmark's, Gauss's and the exact scheme change it by rounding only [theory]").when(&[
+            below("newmark: largest change in the last tenth", 1e-8),
+            below("gauss-4: largest change in the last tenth", 1e-8),
+            below("exact: largest change in the last tenth", 1e-8),
+        ]),
     ],
     run: || run(STEPS),
     draw,
@@ -68,18 +50,12 @@ pub(crate) const DRIFT_SHORT: Experiment = Experiment {
     ..DRIFT
 };
 
-fn refused<E: std::fmt::Display>(reason: E) -> SandboxError {
-    SandboxError::refused("drift")(reason)
-}
-
 /// `|E/E₀ − 1|` at its largest in each window of steps.
-fn changes(scheme: Scheme, steps: usize) -> Result<Vec<f64>, SandboxError> {
-    let problem = problems::ring(NODES, 1.0, 0.0, [1.0, 20.0, 60.0]).map_err(refused)?;
+fn changes(scheme: Scheme, steps: usize) -> Result<Vec<f64>> {
+    let problem = problems::ring(NODES, 1.0, 0.0, [1.0, 20.0, 60.0])?;
     let (mut system, mut state) = (problem.system, problem.state);
     let limit = Scheme::Leapfrog.step_limit(&system).unwrap_or(1.0);
-    let mut stepper = scheme
-        .start(&mut system, &state, 0.5 * limit, Start::SecondOrder)
-        .map_err(refused)?;
+    let mut stepper = scheme.start(&mut system, &state, 0.5 * limit, Start::SecondOrder)?;
     let rest = system.rest.clone();
     let mut bent = vec![DVec2::ZERO; NODES];
     let mut energy = |system: &dyn System, state: &integrator::State| {
@@ -111,34 +87,28 @@ fn window(step: usize, steps: usize) -> usize {
         .unwrap_or(WINDOWS - 1)
 }
 
-fn run(steps: usize) -> Result<Record, SandboxError> {
-    let ends = (1..=WINDOWS)
-        .map(|w| real(steps).powf(real(w) / real(WINDOWS)))
-        .collect();
-    let mut table = Table::raw("energy").with("step", "", Tolerance::ROUNDING, ends);
+fn run(steps: usize) -> Result {
+    let ends = (1..=WINDOWS).map(|w| real(steps).powf(real(w) / real(WINDOWS)));
+    let mut table = Table::raw("energy").exact("step", ends);
     let mut record = Record::default();
     for scheme in KEEPERS.into_iter().chain(OTHERS) {
         let seen = changes(scheme, steps)?;
-        let most = |part: &[f64]| part.iter().copied().fold(0.0, f64::max);
-        let (first, last) = (most(&seen[..WINDOWS * 5 / 6]), most(&seen[WINDOWS - 1..]));
+        let largest = |part: &[f64]| part.iter().copied().fold(0.0, f64::max);
+        let (first, last) = (&seen[..WINDOWS * 5 / 6], &seen[WINDOWS - 1..]);
         let name = scheme.name();
-        for (when, value) in [("first", first), ("last", last)] {
+        for (when, part) in [("first", first), ("last", last)] {
             let name = format!("{name}: largest change in the {when} tenth");
-            record.note(name, value, "", Tolerance::Relative(1.0));
+            record.note(name, largest(part), share(1.0));
         }
-        table = table.with(name, "", Tolerance::Relative(1.0), seen);
+        table = table.exact(name, seen);
     }
     record.keep(table);
     Ok(record)
 }
 
-fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
-    let mut panel = Panel::new(
-        "",
-        Axis::log("step", 1.0, real(STEPS)),
-        Axis::log("|E / E₀ − 1|, largest up to there", 1e-16, 1e1).with_ticks(9),
-    )
-    .legend_at(Corner::BottomRight);
+fn draw(record: &Record) -> Drawn {
+    let change = Axis::log("|E / E₀ − 1|, largest up to there", 1e-16, 1e1).with_ticks(9);
+    let mut panel = plot("", Axis::log("step", 1.0, real(STEPS)), change);
     for scheme in KEEPERS.into_iter().chain(OTHERS) {
         let mut so_far = 0.0_f64;
         let points = record.points("energy", "step", scheme.name())?;
@@ -146,13 +116,12 @@ fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
             so_far = so_far.max(y);
             (x, so_far.max(1e-17))
         });
-        panel = panel.with(Line::new(points.collect(), color(scheme)).named(scheme.name()));
+        panel = panel.with(line(points, color(scheme)).named(scheme.name()));
     }
-    let figure =
-        Figure::new("Energy over a million steps, no damping", 820.0).with(430.0, vec![panel]);
-    Ok(vec![Artefact::figure(
+    Artefact::only(
         "Each at half of leapfrog's largest step. Those that claim to keep energy do; a classical method of order 4 loses \
          it, and so does the start of the report's scheme.",
-        figure,
-    )])
+        Figure::new("Energy over a million steps, no damping", 820.0)
+            .with(430.0, vec![panel.legend_at(Corner::BottomRight)]),
+    )
 }

@@ -1,8 +1,8 @@
 //! What a scheme needs for how much error: forces counted, time taken, distance from the truth.
 
 use super::trial::{Care, Trial};
-use glam::DVec2;
 use integrator::{Fault, Scheme, Start, System, Wrapped};
+use sandbox::prelude::*;
 use std::time::Instant;
 
 /// A stopwatch for one thread on a machine that does other things as well.

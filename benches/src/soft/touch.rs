@@ -1,7 +1,7 @@
 //! Who touches whom: every particle against the nearest edge of every other curve whose box is near.
 
 use super::model::Model;
-use glam::DVec2;
+use sandbox::prelude::*;
 
 /// A particle and the edge it is near.
 #[derive(Debug, Clone, Copy)]

@@ -1,29 +1,10 @@
 //! How the claims about schemes are judged.
 
-use super::trials::schemes;
-use crate::{Finding, Record, SandboxError};
-
-/// Whether one scheme asks for fewer forces than another; one that never got there has lost.
-pub(super) fn fewer(
-    record: &Record,
-    winner: &str,
-    loser: &str,
-    target: &str,
-) -> Result<Finding, SandboxError> {
-    let forces = |name: &str| record.number(&format!("{name}: forces to {target}"));
-    let (own, other) = (forces(winner)?, forces(loser)?);
-    Ok(Finding::new(
-        own < other,
-        format!("{} forces against {}", words(own), words(other)),
-    ))
-}
+use super::problems::schemes;
+use sandbox::prelude::*;
 
 /// Whether one scheme asks for fewer forces than every other.
-pub(super) fn fewest_of_all(
-    record: &Record,
-    winner: &str,
-    target: &str,
-) -> Result<Finding, SandboxError> {
+pub(super) fn fewest_of_all(record: &Record, winner: &str, target: &str) -> Result<Finding> {
     let forces = |name: &str| record.number(&format!("{name}: forces to {target}"));
     let own = forces(winner)?;
     let mut next = ("none", f64::INFINITY);
@@ -42,24 +23,6 @@ pub(super) fn fewest_of_all(
     Ok(Finding::new(own < next.1, found))
 }
 
-/// Whether one scheme takes fewer steps than each of some others.
-pub(super) fn fewer_steps(
-    record: &Record,
-    winner: &str,
-    losers: &[&str],
-    target: &str,
-) -> Result<Finding, SandboxError> {
-    let steps = |name: &str| record.number(&format!("{name}: steps to {target}"));
-    let own = steps(winner)?;
-    let (mut holds, mut found) = (own.is_finite(), format!("{} steps", words(own)));
-    for loser in losers {
-        let other = steps(loser)?;
-        holds &= own < other;
-        found += &format!("; {loser} {}", words(other));
-    }
-    Ok(Finding::new(holds, found))
-}
-
 fn words(count: f64) -> String {
     if count.is_finite() {
         format!("{count}")
@@ -69,7 +32,7 @@ fn words(count: f64) -> String {
 }
 
 /// Whether some scheme reaches 1e-3 in at most so small a share of the report's steps at its limit.
-pub(super) fn share_of_report(record: &Record, share: f64) -> Result<Finding, SandboxError> {
+pub(super) fn share_of_report(record: &Record, share: f64) -> Result<Finding> {
     let report = record.number("report: steps at its largest stable step")?;
     let mut best = ("none", f64::INFINITY);
     for scheme in schemes().filter(|scheme| scheme.parameter().is_none() || scheme.order() == 2) {

@@ -1,7 +1,6 @@
 use super::model::turning;
 use super::world::{Method, World};
-use crate::experiments::motion::changed_scene;
-use glam::DVec2;
+use sandbox::prelude::*;
 
 #[test]
 fn the_slopes_of_a_hinge_are_those_of_its_angle() {
@@ -27,11 +26,11 @@ fn the_slopes_of_a_hinge_are_those_of_its_angle() {
 
 #[test]
 fn the_other_methods_hang_a_rope_as_long_as_it_is() {
-    let scene = changed_scene("soft-peers", "rope", &[]).unwrap();
+    let scene = scene_with("rope", &[]).unwrap();
     // 4.1 px of stretch, as the snake has it, and 40 springs of 0.0025 px at rest
     for (method, share, off) in [(Method::Springs, 1.0, 1e-3), (Method::Positions, 0.5, 0.02)] {
-        let mut world = World::new("soft-peers", &scene, method, share).unwrap();
-        world.go("soft-peers", 120.0).unwrap();
+        let mut world = World::new(&scene, method, share).unwrap();
+        world.go(120.0).unwrap();
         let rope = world.curve(0);
         let length = rope[0].y - rope[40].y;
         assert!((length - 4.2).abs() < off, "{method:?}: {length}");

@@ -1,16 +1,19 @@
-//! Grids as colors and arrows, for the experiments that show pictures and fields.
+//! Grids as colors and arrows: pictures and fields.
 
-use crate::draw::{Color, Layer, diverging};
+use super::palette::{Color, diverging};
+use super::panel::Layer;
 use crate::real;
 use ndarray::{Array2, s};
 
 /// Grey levels 0 to 255 as colors.
-pub(super) fn grey(levels: &Array2<f64>) -> Array2<Color> {
+#[must_use]
+pub fn grey(levels: &Array2<f64>) -> Array2<Color> {
     levels.mapv(|level| Color(0, 0, 0).mix(Color::WHITE, level / 255.0))
 }
 
 /// The mean of every so many pixels by as many: what a drawing at a smaller size needs.
-pub(super) fn shrunk(grid: &Array2<f64>, factor: usize) -> Array2<f64> {
+#[must_use]
+pub fn shrunk(grid: &Array2<f64>, factor: usize) -> Array2<f64> {
     let (rows, columns) = grid.dim();
     let mean = |(row, column): (usize, usize)| {
         let (top, left) = (row * factor, column * factor);
@@ -22,7 +25,8 @@ pub(super) fn shrunk(grid: &Array2<f64>, factor: usize) -> Array2<f64> {
 }
 
 /// A signed grid as colors; full color at the size that the given share of the pixels stays below.
-pub(super) fn signed(grid: &Array2<f64>, share: f64) -> Array2<Color> {
+#[must_use]
+pub fn signed(grid: &Array2<f64>, share: f64) -> Array2<Color> {
     let mut sizes: Vec<f64> = grid.iter().map(|value| value.abs()).collect();
     sizes.sort_by(f64::total_cmp);
     #[expect(clippy::cast_possible_truncation, reason = "a share of a count")]
@@ -36,7 +40,8 @@ pub(super) fn signed(grid: &Array2<f64>, share: f64) -> Array2<Color> {
 /// Arrows in a window (left, top, columns, rows), as long as the root of the force, so that weak ones
 /// are seen beside strong ones; those below a share of the strongest are left out. One for each cell
 /// of so many pixels: in its middle.
-pub(super) fn arrows(
+#[must_use]
+pub fn arrows(
     fx: &Array2<f64>,
     fy: &Array2<f64>,
     every: usize,
@@ -57,12 +62,8 @@ pub(super) fn arrows(
 
 /// As [`arrows`], but each stands where the force is strongest in its cell: in a large picture an edge
 /// would pass between the middles unseen.
-pub(super) fn strongest_arrows(
-    fx: &Array2<f64>,
-    fy: &Array2<f64>,
-    every: usize,
-    least: f64,
-) -> Layer {
+#[must_use]
+pub fn strongest_arrows(fx: &Array2<f64>, fy: &Array2<f64>, every: usize, least: f64) -> Layer {
     let (rows, columns) = fx.dim();
     let size = |at: (usize, usize)| fx[at].hypot(fy[at]);
     let mut places = Vec::new();

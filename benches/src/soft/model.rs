@@ -1,6 +1,6 @@
 //! What mass-spring and position-based methods make of a scene: particles, springs, hinges, gas, walls.
 
-use glam::DVec2;
+use sandbox::prelude::*;
 use scene::Scene;
 use snake::{Contact, Gravity, Plastic, Pressure, WallLaw};
 use std::ops::Range;
@@ -112,7 +112,7 @@ impl Model {
                 weights.tension.at(0),
                 weights.rigidity.at(0),
             );
-            let radius = h * crate::real(n) / std::f64::consts::TAU;
+            let radius = h * real(n) / std::f64::consts::TAU;
             let mode = |m: f64| {
                 let k = (m / radius).powi(2);
                 w0 + w1 * k + w2 * k * k

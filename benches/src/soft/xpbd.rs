@@ -2,7 +2,7 @@
 
 use super::model::{Model, turning};
 use super::touch::touches;
-use glam::DVec2;
+use sandbox::prelude::*;
 
 /// One step with so many passes over all constraints.
 pub(super) fn step(model: &mut Model, dt: f64, passes: usize) {

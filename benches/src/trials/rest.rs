@@ -1,10 +1,8 @@
 //! The oracle's ellipse to rest: how few steps are enough?
 
 use super::effort::to_real;
-use crate::draw::{Axis, Figure, Layer, Line, Panel};
-use crate::{Artefact, Claim, Experiment, Finding, Record, SandboxError, Table, Tolerance, real};
-use glam::DVec2;
 use integrator::{Scheme, Start};
+use sandbox::prelude::*;
 use scene::Scene;
 use std::path::Path;
 
@@ -21,30 +19,17 @@ pub(crate) const REST: Experiment = Experiment {
     question: "The report's program leads 40 nodes to an ellipse in 6001 steps of 0.01 s. After how many steps is it within \
                0.01 px of where it ends, and how few would do?",
     claims: &[
-        Claim {
-            says: "some scheme comes to rest there with at most a tenth of the report's steps",
-            source: "theory",
-            judge: |r| {
-                let report = r.number("report at 0.01 s: steps to rest")?;
-                let best = r.number("fewest steps to rest")?;
-                Ok(Finding::new(
-                    10.0 * best <= report,
-                    format!("{best} against {report} steps"),
-                ))
-            },
-        },
-        Claim {
-            says: "and with a fifth of its steps at the best step it has itself",
-            source: "theory",
-            judge: |r| {
-                let report = r.number("report: fewest steps to rest")?;
-                let best = r.number("fewest steps to rest")?;
-                Ok(Finding::new(
-                    5.0 * best <= report,
-                    format!("{best} against {report} steps"),
-                ))
-            },
-        },
+        claim(
+            "some scheme comes to rest there with at most a tenth of the report's steps [theory]",
+        )
+        .when(&[less(
+            "fewest steps to rest",
+            0.1,
+            "report at 0.01 s: steps to rest",
+        )]),
+        claim("and with a fifth of its steps at the best step it has itself [theory]").when(&[
+            less("fewest steps to rest", 0.2, "report: fewest steps to rest"),
+        ]),
     ],
     run: || run(1),
     draw,
@@ -56,19 +41,13 @@ pub(crate) const REST_SHORT: Experiment = Experiment {
     ..REST
 };
 
-fn refused<E: std::fmt::Display>(reason: E) -> SandboxError {
-    SandboxError::refused("rest")(reason)
-}
-
 /// The situation of the oracle's run, and where its program ended.
-fn oracle() -> Result<(Scene, Vec<DVec2>), SandboxError> {
+fn oracle() -> Result<(Scene, Vec<DVec2>)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/scene/tests/oracle");
-    let table = |file: &str| -> Result<Vec<Vec<f64>>, SandboxError> {
+    let table = |file: &str| -> Result<Vec<Vec<f64>>> {
         let path = folder.join("snake/ellipse_damped").join(file);
-        let text = std::fs::read_to_string(&path).map_err(|reason| SandboxError::File {
-            path: path.clone(),
-            reason,
-        })?;
+        let text = std::fs::read_to_string(&path)
+            .map_err(|reason| refused(format!("{}: {reason}", path.display())))?;
         let number = |word: &str| word.trim().parse().unwrap_or(f64::NAN);
         Ok(text
             .lines()
@@ -88,7 +67,7 @@ fn oracle() -> Result<(Scene, Vec<DVec2>), SandboxError> {
          [densities]\nmass = 1.0\ndamping = 10.0\n[run]\ndt = {DT}\ntime = {UNTIL:?}\n",
         clicks.join(", ")
     );
-    let scene = Scene::parse("ellipse", &text, &folder).map_err(refused)?;
+    let scene = Scene::parse("ellipse", &text, &folder)?;
     let positions = table("positions.csv")?;
     let last = positions.iter().map(|row| row[0]).fold(0.0, f64::max);
     let end = positions.iter().filter(|row| row[0] >= last);
@@ -108,16 +87,11 @@ fn steps_to_rest(scene: &mut Scene, end: &[DVec2], scheme: Scheme, dt: f64) -> O
     let mut arrived = None;
     while state.t < UNTIL.max(40.0 * dt) {
         stepper.step(&mut scene.snake, &mut state).ok()?;
-        let apart = state
-            .x
-            .iter()
-            .zip(end)
-            .map(|(x, y)| x.distance(*y))
-            .fold(0.0, f64::max);
-        if apart.is_nan() || apart > NEAR {
+        let mut apart = state.x.iter().zip(end).map(|(x, y)| x.distance(*y));
+        if apart.all(|d| d <= NEAR) {
+            arrived = arrived.or(Some(state.step));
+        } else {
             arrived = None;
-        } else if arrived.is_none() {
-            arrived = Some(state.step);
         }
     }
     arrived
@@ -131,84 +105,67 @@ fn schemes() -> impl Iterator<Item = Scheme> {
 }
 
 /// Tries steps from 0.01 s on, five of `every` to an octave.
-fn run(every: usize) -> Result<Record, SandboxError> {
+fn run(every: usize) -> Result {
     let (mut scene, end) = oracle()?;
     let mut record = Record::default();
     let loose = Tolerance::RelativeOrInfinite(1.0);
-    let count = |steps: Option<u64>| steps.map_or(f64::NAN, to_real);
-    let plain = steps_to_rest(&mut scene, &end, Scheme::Report, DT);
-    let never = |steps: f64| {
-        if steps.is_nan() { f64::INFINITY } else { steps }
-    };
-    let plain = never(count(plain));
-    record.note("report at 0.01 s: steps to rest", plain, "", loose);
-    let tried: Vec<f64> = (0..=60)
+    let mut count =
+        |scheme, dt| steps_to_rest(&mut scene, &end, scheme, dt).map_or(f64::NAN, to_real);
+    let or_never = |steps: f64| if steps.is_nan() { f64::INFINITY } else { steps };
+    let plain = or_never(count(Scheme::Report, DT));
+    record.note("report at 0.01 s: steps to rest", plain, loose);
+    let tried = (0..=60)
         .step_by(every)
-        .map(|i| 0.01 * 2.0_f64.powf(real(i) / 5.0))
-        .collect();
-    let mut table = Table::raw("steps").with("dt", "s", loose, tried.clone());
+        .map(|i| 0.01 * 2.0_f64.powf(real(i) / 5.0));
+    let tried: Vec<f64> = tried.collect();
+    let mut table = Table::raw("steps").exact("dt [s]", tried.clone());
     let mut fewest = f64::INFINITY;
     for scheme in schemes() {
-        let steps: Vec<f64> = tried
+        let steps: Vec<f64> = tried.iter().map(|&dt| count(scheme, dt)).collect();
+        let rested = steps
             .iter()
-            .map(|&dt| count(steps_to_rest(&mut scene, &end, scheme, dt)))
-            .collect();
-        let (mut best, mut with) = (f64::NAN, f64::NAN);
-        for (&steps, &dt) in steps.iter().zip(&tried) {
-            if steps.is_finite() && (best.is_nan() || steps < best) {
-                (best, with) = (steps, dt);
-            }
-        }
+            .zip(&tried)
+            .filter(|(steps, _)| steps.is_finite());
+        let best = rested.min_by(|a, b| a.0.total_cmp(b.0));
+        let (best, with) = best.map_or((f64::NAN, f64::NAN), |(steps, dt)| (*steps, *dt));
         let name = scheme.name();
         record.note(
             format!("{name}: fewest steps to rest"),
-            never(best),
-            "",
+            or_never(best),
             loose,
         );
-        record.note(format!("{name}: step of these"), with, "s", loose);
+        record.note(format!("{name}: step of these [s]"), with, loose);
         if scheme != Scheme::Report && best.is_finite() {
             fewest = fewest.min(best);
         }
-        table = table.with(name, "", loose, steps);
+        table = table.exact(name, steps);
     }
-    record.note("fewest steps to rest", fewest, "", loose);
+    record.note("fewest steps to rest", fewest, loose);
     record.keep(table);
     Ok(record)
 }
 
-fn draw(record: &Record) -> Result<Vec<Artefact>, SandboxError> {
-    let mut panel = Panel::new(
-        "steps until within 0.01 px for good",
+fn draw(record: &Record) -> Drawn {
+    let (dt, steps) = (
         Axis::log("Δt / s", 0.01, 10.0),
         Axis::log("steps", 10.0, 1e4),
     );
-    let mut names = Panel::new("", Axis::new("", 0.0, 1.0), Axis::new("", 0.0, 1.0)).bare();
+    let mut panel = plot("steps until within 0.01 px for good", dt, steps);
+    let mut names = plot("", ("", 0.0, 1.0), ("", 0.0, 1.0)).bare();
     names.share = 0.35;
     for scheme in schemes() {
         let points = record.points("steps", "dt", scheme.name())?;
         let color = super::chart::color(scheme);
-        let seen = points.iter().copied().filter(|p| p.1.is_finite()).collect();
-        let dots = Layer::Dots {
-            points: seen,
-            radius: 1.2,
-            color,
-            label: String::new(),
-        };
+        let seen: Vec<(f64, f64)> = points.iter().copied().filter(|p| p.1.is_finite()).collect();
         panel = panel
-            .with(Line::new(points, color).weighing(0.8))
-            .with(dots);
-        names = names.with(
-            Line::new(Vec::new(), color)
-                .weighing(1.6)
-                .named(scheme.name()),
-        );
+            .with(line(points, color).weighing(0.8))
+            .with(dots(seen, 1.2, color));
+        names = names.with(line([], color).weighing(1.6).named(scheme.name()));
     }
-    let names = names.legend_at(crate::draw::Corner::TopLeft);
-    let figure = Figure::new("The oracle's ellipse to rest", 860.0).with(430.0, vec![panel, names]);
-    Ok(vec![Artefact::figure(
+    let names = names.legend_at(Corner::TopLeft);
+    Artefact::only(
         "Where a line ends the scheme blows up, circles, or rests elsewhere. A picture pushes back, so every scheme that takes \
          its force from the start of a step has a largest step; a step that looks at the picture's slope goes on.",
-        figure,
-    )])
+        Figure::new("The oracle's ellipse to rest", 860.0).with(430.0, vec![panel, names]),
+    )
 }
