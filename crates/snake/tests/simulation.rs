@@ -172,11 +172,14 @@ fn a_snake_joins_and_another_leaves() {
     let mut simulation = met(Stepping::of(Scheme::Leapfrog, 0.01), true);
     go(&mut simulation, 20);
     let (snake, state) = ball(DVec2::new(0.0, 9.0), DVec2::ZERO, Frame::corrected());
+    let total = simulation.energies().total();
     let id = simulation.add(Entry::new(snake, state)).unwrap();
     assert_eq!((id, simulation.members().len()), (2, 3));
     assert!((simulation.members()[2].state().t - 0.2).abs() < 1e-12);
     go(&mut simulation, 20);
     let gone = simulation.remove(0).unwrap();
+    // what they brought and took is booked, and the sum stays
+    assert!((simulation.energies().total() - total).abs() < 1e-4 * total);
     assert_eq!(gone.state.step, 40);
     go(&mut simulation, 20);
     let ids: Vec<usize> = simulation.members().iter().map(|m| m.id()).collect();

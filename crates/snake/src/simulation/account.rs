@@ -21,6 +21,8 @@ pub(super) struct Books {
     pub scheme: f64,
     /// Minus what upkeep has put in.
     pub upkeep: f64,
+    /// Minus what snakes that joined or left have brought.
+    pub hand: f64,
 }
 
 impl Books {
@@ -31,6 +33,7 @@ impl Books {
             gone: Energies::default(),
             scheme: 0.0,
             upkeep: 0.0,
+            hand: 0.0,
         }
     }
     /// What half a kick has done.
@@ -94,6 +97,7 @@ impl Simulation {
             contact: self.books.lost,
             scheme: self.books.scheme,
             upkeep: self.books.upkeep,
+            hand: self.books.hand,
             ..Energies::default()
         };
         if let Some(contact) = &self.contact {

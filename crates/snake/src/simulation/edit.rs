@@ -112,9 +112,10 @@ impl Simulation {
     /// As [`Simulation::new`]; then nothing has changed.
     pub fn add(&mut self, entry: Entry) -> Result<usize, SimulationError> {
         self.check_alone(self.members.len() + 1)?;
-        let id = self.next_id;
+        let (id, before) = (self.next_id, self.sum());
         self.admit(entry)?;
         self.meet(None)?;
+        self.books.hand += before - self.sum();
         Ok(id)
     }
 
@@ -124,15 +125,25 @@ impl Simulation {
     ///
     /// A number that no snake has.
     pub fn remove(&mut self, id: usize) -> Result<Entry, SimulationError> {
-        let k = self.index(id)?;
+        let (k, before) = (self.index(id)?, self.sum());
         let member = self.retire(k);
         self.meet(None)?;
+        self.books.hand += before - self.sum();
         Ok(Entry {
             snake: member.snake,
             state: member.state,
             terms: member.terms,
             tips: member.tips,
         })
+    }
+
+    /// The sum of all energies, where an account is kept.
+    fn sum(&mut self) -> f64 {
+        if self.books.kept {
+            self.energies().total()
+        } else {
+            0.0
+        }
     }
 
     /// Where in the list snake number `id` is.
