@@ -129,7 +129,11 @@ pub(crate) fn group_of(snake: Snake, state: State, dt: f64, upkeep: Upkeep) -> R
         ..Rules::default()
     };
     let stepping = Stepping::of(Scheme::Leapfrog, dt);
-    Ok(Simulation::new(vec![Entry::new(snake, state)], stepping, &rules)?)
+    Ok(Simulation::new(
+        vec![Entry::new(snake, state)],
+        stepping,
+        &rules,
+    )?)
 }
 
 /// One step of a group; one that ends with it is refused.

@@ -78,6 +78,8 @@ refusals!(
     banded::BandedError,
     elastic::ElasticError,
     field::FieldError,
+    io::IoError,
+    scene::fit::FitError,
     integrator::Fault,
     integrator::SchemeError,
     outline::OutlineError,

@@ -102,6 +102,12 @@ impl Session {
         &self.simulation.members()[0]
     }
 
+    /// What moves the curve, to be looked at: one snake in its world.
+    #[must_use]
+    pub const fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
     /// The nodes as they are.
     #[must_use]
     pub fn nodes(&self) -> &[DVec2] {

@@ -48,7 +48,7 @@ fn run() -> Result {
         let way = most(centers.iter().map(|c| c.distance(centers[0])));
         let mut own = record.under(name);
         own.note("center moved at most [px]", way, ROUNDING);
-        let start = bend(&run.frames[0].nodes);
+        let start = bend(run.frames[0].nodes());
         own.note("bend at the start [px]", start, ROUNDING);
         own.note("bend at the end [px]", bend(last(&run)), ROUNDING);
         let times = Table::new(table).with("t [s]", ROUNDING, run.frames.iter().map(|f| f.t));

@@ -39,8 +39,8 @@ pub(crate) const FIELD: Experiment = Experiment {
 };
 
 fn run() -> Result {
-    let picture = io::Picture::shipped("apple")?;
-    let contour = scene::contour("apple-truth")?.points;
+    let picture = scene::picture("apple")?;
+    let contour = scene::contour("apple-truth")?.first().to_vec();
     let image = picture.levels();
     let report = report_force(image, REPORT_PASSES, REPORT_SCALE, REPORT_GAIN)?;
     let corrected = edge_force(image, &EdgeForce::as_strong_as_the_report())?;

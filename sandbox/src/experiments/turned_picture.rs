@@ -74,7 +74,7 @@ fn run() -> Result {
             share(1e-3),
         );
         if let Some(last) = run.frames.last() {
-            let behind = RATE * last.t - scene.snake.angle(&last.nodes);
+            let behind = RATE * last.t - scene.snake.angle(last.nodes());
             let behind = behind - TAU * (behind / TAU).round();
             own.note("angle behind the picture [rad]", behind, 1e-3);
         }

@@ -20,7 +20,7 @@ impl Truth {
     /// The apple's contour as drawn by hand.
     pub(crate) fn apple() -> Result<Self> {
         Ok(Self {
-            contour: scene::contour("apple-truth")?.points,
+            contour: scene::contour("apple-truth")?.first().to_vec(),
             boxes: &scene::APPLE_DISTURBING,
             near: 4.0,
         })
@@ -137,7 +137,11 @@ impl Story {
             record.keep(
                 table
                     .with("t", ROUNDING, frames().map(|frame| frame.t))
-                    .with("top x [px]", 8.0, frames().map(|frame| top(frame.nodes()).x))
+                    .with(
+                        "top x [px]",
+                        8.0,
+                        frames().map(|frame| top(frame.nodes()).x),
+                    )
                     .with(
                         "top y [px]",
                         tolerance,

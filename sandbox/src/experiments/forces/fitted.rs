@@ -94,9 +94,8 @@ fn run() -> Result {
         let mut ends = vec![Frame::closed(0.0, start.clone())];
         for kind in KINDS {
             // the default is no force chosen
-            let mut scene = fit(&image, start, if kind == KINDS[0] { "" } else { kind })?;
-            let found = to_the_end(&mut scene)?;
-            let (name, x) = (label(kind), last(&found));
+            let found = fit(&image, start, if kind == KINDS[0] { "" } else { kind })?.finish();
+            let (name, x) = (label(kind), &found.contour.points);
             let off = mean_distance(&truth, x);
             let words_of = format!("{name}, {words}: mean distance of the outline [px]");
             record.note(words_of, off, share(0.02));

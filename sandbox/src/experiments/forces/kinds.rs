@@ -150,8 +150,9 @@ fn field_of(typed: &str, image: &Grid) -> Result<ForceField> {
             REPORT_GAIN,
         )?);
     }
-    let scene = fit(image, &circle_in(image), typed)?;
-    let force = scene.snake.world().forces[0].downcast::<ImageForce>();
+    let session = fit(image, &circle_in(image), typed)?;
+    let world = session.simulation().members()[0].snake().world();
+    let force = world.forces[0].downcast::<ImageForce>();
     let force = force.ok_or_else(|| refused(format!("{typed} is no field")))?;
     Ok(force.field().as_ref().clone())
 }
@@ -165,7 +166,7 @@ fn circle_in(image: &Grid) -> Vec<DVec2> {
 
 fn run() -> Result {
     let mut record = Record::default();
-    let apple = shrunk(io::Picture::shipped("apple")?.levels(), SMALL);
+    let apple = shrunk(scene::picture("apple")?.levels(), SMALL);
     for (picture, image) in [("U", u_shape()?), ("apple", apple)] {
         for (name, typed) in KINDS {
             let field = field_of(typed, &image)?;

@@ -68,7 +68,8 @@ pub(super) fn stages(kind: &str, image: &Grid) -> Result<Vec<World>> {
         ))]);
     }
     let circle = elastic::circle(DVec2::splat(128.0), 60.0, 60);
-    let shipped = fit(image, &circle, kind)?.snake.world().clone();
+    let session = fit(image, &circle, kind)?;
+    let shipped = session.simulation().members()[0].snake().world().clone();
     let stages = shipped.forces.iter().map(|acting| World {
         walls: shipped.walls.clone(),
         ..world(acting.force())

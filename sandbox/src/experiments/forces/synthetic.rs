@@ -5,7 +5,8 @@
 
 use crate::prelude::*;
 use field::{Grid, Line, Smoothing, line_strength};
-use scene::{Contour, Fit, ForceChoice, Scene};
+use scene::ForceChoice;
+use scene::fit::{Contour, Image, Options, Prepared, Session};
 
 /// Grey level of the object.
 pub(super) const OBJECT: f64 = 200.0;
@@ -109,20 +110,16 @@ pub(super) fn rounded(picture: &Grid) -> Grid {
 
 /// The scene of `snake fit` with forces as typed behind `--force`, several joined by a plus; the
 /// default for none.
-pub(super) fn fit(image: &Grid, start: &[DVec2], forces: &str) -> Result<Scene> {
+pub(super) fn fit(image: &Grid, start: &[DVec2], forces: &str) -> Result<Session> {
     let chosen = forces.split('+').filter(|force| !force.is_empty());
-    let fit = Fit {
-        forces: chosen
-            .map(ForceChoice::parse)
-            .collect::<Result<_, _>>()
-            .map_err(refused)?,
-        ..Fit::default()
+    let chosen: std::result::Result<Vec<_>, _> = chosen.map(ForceChoice::parse).collect();
+    let chosen = chosen.map_err(refused)?.into_iter();
+    let options = Options {
+        forces: chosen.map(ForceChoice::for_fit).collect(),
+        ..Options::default()
     };
-    let contour = Contour {
-        points: start.to_vec(),
-        closed: Some(true),
-    };
-    Ok(fit.scene(io::Picture::from_levels(image.clone()), &contour)?)
+    let prepared = Prepared::of(&Image::grey(image.clone()), &options)?;
+    Ok(prepared.session(&Contour::closed(start.to_vec()))?)
 }
 
 /// Mean distance of a closed polygon from another, by points at most a pixel apart.

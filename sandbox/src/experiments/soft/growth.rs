@@ -82,7 +82,7 @@ fn run() -> Result {
             }
         }
         let (hidden, seen): (Vec<DVec2>, Vec<DVec2>) = group.members()[0]
-            .state
+            .state()
             .x
             .iter()
             .partition(|p| p.x >= HIDDEN - 4.0);

@@ -1,7 +1,7 @@
 //! Twenty balls on a rough slope: friction that sticks, and Coulomb's number where it slips.
 
 use crate::prelude::*;
-use snake::{Snake, World};
+use snake::{Edit, Parameter, Snake, World};
 
 const G: f64 = 4.0;
 const ETA: f64 = 0.5;
@@ -59,10 +59,8 @@ fn on(degrees: f64, stick: f64) -> Result<Group> {
     }
     // what rings inside a ball has nothing to do with the slope
     let mut group = group(&scene)?;
-    for member in group.members_mut() {
-        let mut body = member.snake().body().clone();
-        body.internal = 0.001;
-        member.snake().set_body(body)?;
+    for id in 0..group.members().len() {
+        group.edit(id, Edit::Set(Parameter::Internal, 0.001))?;
     }
     Ok(group)
 }
