@@ -246,12 +246,12 @@ pub enum Problem {
     Other(String),
 }
 
-/// The bound that was passed, in words.
+/// The bound that was passed from below with the other one, or the one passed from above, in words.
 fn bound(least: u64, most: u64, got: u64) -> String {
     if got > most {
         format!("at most {most}")
     } else {
-        format!("at least {least}")
+        format!("{least} to {most}")
     }
 }
 
