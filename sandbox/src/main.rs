@@ -11,7 +11,7 @@ use std::fmt::Arguments;
 use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock};
 
 /// The first error of standard output: later ones follow from it.
 static BROKEN: OnceLock<std::io::Error> = OnceLock::new();
@@ -240,11 +240,30 @@ fn figures(asked: &Figures) -> Result<bool, SandboxError> {
         bar.set_style(style);
     }
     bar.tick();
-    let done = perform_all(&chosen, &|experiment| {
+    let mine = folder.as_ref().is_some_and(|folder| !is_committed(folder));
+    let unwritten = Mutex::new(None);
+    let done = perform_all(&chosen, &|experiment, done| {
         bar.set_message(experiment.id);
         bar.inc(1);
+        // each is there to be looked at as soon as it is made
+        if let (Some(folder), Ok(done)) = (&folder, done) {
+            let drawn = write_drawings(folder, done);
+            let all = drawn.and_then(|()| {
+                if mine {
+                    write_tables(folder, done)
+                } else {
+                    Ok(())
+                }
+            });
+            if let (Err(error), Ok(mut unwritten)) = (all, unwritten.lock()) {
+                unwritten.get_or_insert(error);
+            }
+        }
     })?;
     bar.finish_and_clear();
+    if let Ok(Some(error)) = unwritten.into_inner() {
+        return Err(error);
+    }
 
     let whole = asked.only.is_empty();
     if asked.accept || std::env::var_os("REGENERATE").is_some_and(|value| value == "1") {
@@ -277,24 +296,24 @@ fn check(done: &[Done], whole: bool) -> usize {
     faults.len()
 }
 
+/// What is told of all experiments together, once their drawings are there.
 fn write(folder: &Folder, done: &[Done], all: bool) -> Result<(), SandboxError> {
-    for one in done {
-        write_drawings(folder, one)?;
-    }
-    let same = |a: &Path, b: &Path| a.canonicalize().ok() == b.canonicalize().ok();
-    if committed_folder().exists() && same(folder.path(), &committed_folder()) {
+    if is_committed(folder) {
         if all {
             let docs = Folder::open(&committed_folder().join(".."))?;
             docs.write("figures.md", gallery(done).as_bytes())?;
         }
         return Ok(());
     }
-    for one in done {
-        write_tables(folder, one)?;
-    }
     folder.write("index.html", page(done).as_bytes())?;
     println!("open {}", folder.path().join("index.html").display());
     Ok(())
+}
+
+/// Whether a folder is the committed one, which takes drawings only.
+fn is_committed(folder: &Folder) -> bool {
+    let same = |a: &Path, b: &Path| a.canonicalize().ok() == b.canonicalize().ok();
+    committed_folder().exists() && same(folder.path(), &committed_folder())
 }
 
 fn write_drawings(folder: &Folder, done: &Done) -> Result<(), SandboxError> {

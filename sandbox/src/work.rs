@@ -1,9 +1,9 @@
 //! Running experiments: one, or all of them on the processors there are.
 
 use crate::{Artefact, Body, Experiment, Finding, Record, SandboxError};
+use std::collections::VecDeque;
 use std::path::PathBuf;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A drawing as bytes.
@@ -99,30 +99,35 @@ fn drawn(experiment: &Experiment, artefact: &Artefact) -> Result<Drawn, SandboxE
     })
 }
 
-/// Runs experiments on all processors; the answers come in the order asked. `watch` hears of each
-/// as it is finished.
+/// Runs experiments on all processors; the answers come in the order asked. `watch` is shown each as
+/// soon as it is finished: every second processor goes from the first on, the others from the last
+/// on, where the long ones stand.
 ///
 /// # Errors
 ///
 /// The first refusal, in the order asked.
 pub fn perform_all(
     experiments: &[&'static Experiment],
-    watch: &(dyn Fn(&'static Experiment) + Sync),
+    watch: &(dyn Fn(&'static Experiment, &Result<Done, SandboxError>) + Sync),
 ) -> Result<Vec<Done>, SandboxError> {
-    let next = AtomicUsize::new(0);
+    let left = Mutex::new(experiments.iter().copied().collect::<VecDeque<_>>());
+    let take = |first: bool| {
+        let mut left = left.lock().unwrap_or_else(PoisonError::into_inner);
+        if first {
+            left.pop_front()
+        } else {
+            left.pop_back()
+        }
+    };
     let results = Mutex::new(Vec::new());
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     std::thread::scope(|scope| {
-        for _ in 0..workers.min(experiments.len()) {
-            scope.spawn(|| {
-                // from the last on: the long ones stand there, and nobody should wait for one begun late
-                while let Some(&experiment) = experiments
-                    .iter()
-                    .rev()
-                    .nth(next.fetch_add(1, Ordering::Relaxed))
-                {
+        for worker in 0..workers.min(experiments.len()) {
+            let (take, results) = (&take, &results);
+            scope.spawn(move || {
+                while let Some(experiment) = take(worker % 2 == 0) {
                     let result = perform(experiment);
-                    watch(experiment);
+                    watch(experiment, &result);
                     if let Ok(mut results) = results.lock() {
                         results.push((experiment.id, result));
                     }
@@ -130,9 +135,7 @@ pub fn perform_all(
             });
         }
     });
-    let mut results = results
-        .into_inner()
-        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
     results.sort_by_key(|(id, _)| experiments.iter().position(|asked| asked.id == *id));
     results.into_iter().map(|(_, result)| result).collect()
 }

@@ -22,7 +22,7 @@ const QUICK: [&str; 6] = [
 
 fn done(ids: &[&str]) -> Vec<Done> {
     let chosen: Vec<&'static Experiment> = ids.iter().map(|id| find(id).unwrap()).collect();
-    perform_all(&chosen, &|_| {}).unwrap()
+    perform_all(&chosen, &|_, _| {}).unwrap()
 }
 
 /// A copy of what is committed of some experiments, with a gallery of just these.
