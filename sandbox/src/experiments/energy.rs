@@ -43,7 +43,7 @@ fn run() -> Result {
     let begun = snake.energies(&start).total();
     let (mut times, mut sums, mut taken) = (vec![0.0], vec![begun], vec![0.0]);
     let (mut lowest, mut before) = (f64::INFINITY, power(&start.v));
-    let run = watched(&mut scene, &mut |state| {
+    let run = watched(&scene, &mut |state| {
         let energies = snake.energies(state);
         let now = power(&state.v);
         // the trapezium rule, of the scheme's own order

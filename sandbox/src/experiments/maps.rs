@@ -129,8 +129,8 @@ fn run() -> Result {
     ] {
         cases.push((name.to_owned(), scene_with(SCENE, &[change])?));
     }
-    for (name, mut scene) in cases {
-        let run = to_the_end(&mut scene)?;
+    for (name, scene) in cases {
+        let run = to_the_end(&scene)?;
         let (door, corners) = measure(last(&run));
         let mut own = record.under(&name);
         own.note("off at the door [px]", door, 1e-5);

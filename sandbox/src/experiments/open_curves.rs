@@ -88,7 +88,7 @@ fn run() -> Result {
         } else if let Some(picture) = &scene.picture {
             record.keep_grid("road", picture.levels().clone());
         }
-        let run = to_the_end(&mut scene)?;
+        let run = to_the_end(&scene)?;
         let nodes = last(&run);
         let places: Vec<(f64, f64)> = nodes.iter().map(|&p| from_road(p)).collect();
         let arcs = || places.iter().map(|p| p.1);

@@ -127,7 +127,7 @@ pub(crate) fn follow(name: &str, changes: &[(&str, &str)]) -> Result<(Course, sc
     }
     let start = scene.start.clone();
     course.see(&snake, start.t, &start.x, &start.v);
-    let run = watched(&mut scene, &mut |state| {
+    let run = watched(&scene, &mut |state| {
         course.see(&snake, state.t, &state.x, &state.v);
     })?;
     Ok((course, run))

@@ -116,7 +116,7 @@ impl Account {
             (false, true) => TOUCHING,
             (true, _) => MEETING,
         };
-        let run = to_the_end(&mut scene)?;
+        let run = to_the_end(&scene)?;
         let rows = run.frames.iter();
         let rows = rows.filter_map(|frame| Some((frame.t, frame.energies.as_ref()?.values())));
         let rows: Vec<(f64, Vec<f64>)> = rows.collect();
