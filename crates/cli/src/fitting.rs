@@ -78,7 +78,9 @@ pub(crate) fn fit(args: &args::Fit, words: Words) -> Answer {
     };
     let stop = Stop::listen();
     let found = watched(session, args.steps, &stop, words);
-    words.detail(&format!("{}", found.chosen));
+    for line in found.chosen.to_string().lines() {
+        words.detail(line);
+    }
     if matches!(found.outcome, Outcome::Diverged { .. }) {
         words.say(&format!("{TITLE}: {}; no contour to write", found.outcome));
         return Ok(ExitCode::from(1));
@@ -108,7 +110,7 @@ pub(crate) fn fit(args: &args::Fit, words: Words) -> Answer {
         "nodes": found.nodes.len(),
         "least_strength": held.fold(f64::INFINITY, f64::min),
         "curves": quality.map(told).into_iter().collect::<Vec<_>>(),
-        "chosen": found.chosen.to_string(),
+        "chosen": found.chosen.to_string().lines().collect::<Vec<_>>(),
     }))?;
     Ok(code(good))
 }

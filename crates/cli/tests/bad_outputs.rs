@@ -191,7 +191,7 @@ fn missing_arguments_are_listed_with_the_usage() {
     let answer = Folder::new().snake(&["fit"]);
     assert_eq!(answer.code, Some(2), "{answer:?}");
     let lines: Vec<&str> = answer.err.lines().collect();
-    assert!(lines[0].contains("--from <CONTOUR>, <IMAGE>"), "{answer:?}");
+    assert!(lines[0].contains("--from <START>, <IMAGE>"), "{answer:?}");
     assert!(lines[1].starts_with("Usage: snake fit"), "{answer:?}");
 }
 

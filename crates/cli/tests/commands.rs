@@ -488,5 +488,8 @@ fn flags_that_are_none_are_refused_on_one_line() {
     );
     let answer = folder.snake(&[]);
     assert_eq!(answer.code, Some(2));
-    assert!(answer.err.contains("Usage: snake <COMMAND>"), "{answer:?}");
+    assert!(
+        answer.err.contains("Usage: snake [OPTIONS] <COMMAND>"),
+        "{answer:?}"
+    );
 }

@@ -96,7 +96,3 @@ pub use turning::{Term, Turning};
 pub use turning_stepper::TurningStepper;
 pub use wall::{Wall, WallLaw};
 pub use world::World;
-
-pub use elastic;
-pub use field;
-pub use integrator;

@@ -51,7 +51,7 @@ const EXPORTS_TODAY: [(&str, usize); 10] = [
     ("integrator", 26),
     ("outline", 38),
     ("scene", 27),
-    ("snake", 58),
+    ("snake", 57),
     ("snakes", 26), // what users see
     ("sandbox", 34),
 ];
