@@ -1,5 +1,10 @@
 //! What people and scripts rely on: quiet, verbose, JSON, completions, the manual, an end by Ctrl-C.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a test: small whole numbers"
+)]
 
 mod common;
 
@@ -135,4 +140,33 @@ fn ctrl_c_keeps_what_there_is() {
     assert!(said.contains("stopped by Ctrl-C"), "{said}");
     let found = io::shapes::parse_one(&std::fs::read_to_string(folder.path("found.csv")).unwrap());
     assert!(found.unwrap().first().len() > 20);
+}
+
+/// On another machine the last digits may fall otherwise, so some pixels of the line may.
+#[test]
+fn the_picture_of_the_readme_is_what_its_command_draws() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let folder = Folder::new();
+    for name in ["apple.png", "apple_whole_without_the_stem.csv"] {
+        let bytes = std::fs::read(root.join("crates/scene/pictures").join(name));
+        folder.write(name, bytes.unwrap());
+    }
+    let command =
+        "fit apple.png --from apple_whole_without_the_stem.csv --out found.csv --overlay seen.png";
+    assert!(
+        std::fs::read_to_string(root.join("README.md"))
+            .unwrap()
+            .contains(command)
+    );
+    let answer = folder.snake(&command.split(' ').collect::<Vec<_>>());
+    assert_eq!(answer.code, Some(0), "{answer:?}");
+    let [seen, shown] = [
+        folder.path("seen.png"),
+        root.join("docs/apple-before-after.png"),
+    ]
+    .map(|path| io::Picture::decode(&std::fs::read(path).unwrap()).unwrap());
+    let (seen, shown) = (seen.display(), shown.display());
+    let other = seen.pixels().zip(shown.pixels()).filter(|(a, b)| a != b);
+    let share = other.count() as f64 / f64::from(seen.width() * seen.height());
+    assert!(share < 1e-3, "{share}");
 }
