@@ -27,7 +27,7 @@ pub(crate) fn put(text: &str) -> Result<(), SceneError> {
     }
 }
 
-/// An error for people, to standard error; nobody may be there to read it.
+/// An error for people, to standard error, which may be closed.
 pub(crate) fn complain(text: &str) {
     // titles and names come from files: whatever they hold stays on one line
     let _ = writeln!(std::io::stderr(), "{}", io::text::plain(text));

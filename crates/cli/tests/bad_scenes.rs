@@ -1,4 +1,4 @@
-//! Scenes that make no sense: one line with the key and what would do, code 2, nothing written.
+//! Scenes that make no sense: one line with the key and what is needed, code 2, nothing written.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
 #![allow(
     clippy::cast_possible_truncation,

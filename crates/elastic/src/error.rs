@@ -1,4 +1,4 @@
-//! What can be wrong with a curve or a material, each with what was given and what would do.
+//! What can be wrong with a curve or a material, each with what was given and what is needed.
 
 use crate::Bound;
 use banded::BandedError;
@@ -11,7 +11,7 @@ pub enum ElasticError {
     /// Fewer nodes than the differences reach over.
     #[error("a curve with these ends needs at least {needed} nodes, got {got}")]
     TooFewNodes {
-        /// The least that would do.
+        /// The least that is allowed.
         needed: usize,
         /// What was given.
         got: usize,
@@ -19,7 +19,7 @@ pub enum ElasticError {
     /// Fewer points than a curve can be drawn through.
     #[error("a curve needs at least {needed} points to go through, got {got}")]
     TooFewPoints {
-        /// The least that would do.
+        /// The least that is allowed.
         needed: usize,
         /// What was given.
         got: usize,
@@ -33,7 +33,7 @@ pub enum ElasticError {
         node: Option<usize>,
         /// What was given.
         value: f64,
-        /// What would do.
+        /// What is needed.
         bound: Bound,
     },
     /// A profile does not have one value a node.
@@ -71,7 +71,7 @@ pub enum ElasticError {
     /// Elasticity without weights, or of too high an order.
     #[error("elasticity has weights of the orders 0 to at most {highest}, so 1 to {} of them, got {weights}", highest + 1)]
     BadOrder {
-        /// The highest order that would do.
+        /// The highest order that is allowed.
         highest: usize,
         /// How many weights were given.
         weights: usize,

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 /// What can be wrong on the way from an image to a force field.
 ///
-/// Each variant carries what was given; its message says what would do.
+/// Each variant carries what was given; its message says what is needed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FieldError {

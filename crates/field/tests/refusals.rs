@@ -1,4 +1,4 @@
-//! Bad input gets one line that says what would do; odd but good input gets its answer.
+//! Bad input gets one line that says what is needed; odd but good input gets its answer.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,

@@ -6,7 +6,7 @@ use field::{EdgeForce, FieldError, ForceField, Grid, MaskedImage, Pixel, Pixels,
 use field::{counted_limits, lazy_force, level_limits, level_spread};
 use ndarray::{ArcArray2, Array2};
 
-/// An image, shared by whoever looks at it: cloning it costs nothing.
+/// An image. A clone shares the pixels and costs nothing.
 #[derive(Debug, Clone)]
 pub struct Image(Arc<dyn Pixels>);
 

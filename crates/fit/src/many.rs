@@ -56,7 +56,7 @@ pub fn fit_many(
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     jobs.get(index).map(|job| (index, job))
                 } {
-                    // nobody listens any more: nobody wants the rest
+                    // the receiver is gone: the other results are not needed
                     if send.send((index, job.prepared.fit(job.start))).is_err() {
                         break;
                     }

@@ -191,7 +191,7 @@ impl PartialEq for FitForce {
     }
 }
 
-/// Whoever makes a force once the curve is known.
+/// Makes a force once the curve is known.
 pub trait MakeForce: fmt::Debug + Send + Sync {
     /// The forces on a curve of these nodes, of an image seen like this.
     ///

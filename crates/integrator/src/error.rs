@@ -86,7 +86,7 @@ pub enum SchemeError {
         scheme: &'static str,
         /// The parameter.
         name: &'static str,
-        /// What would do.
+        /// What is needed.
         range: &'static str,
         /// The value given.
         value: f64,
@@ -96,7 +96,7 @@ pub enum SchemeError {
     NoModes {
         /// The scheme's name.
         scheme: &'static str,
-        /// What stands in the way, and what would do.
+        /// What stands in the way, and what is needed.
         why: String,
     },
     /// A scheme that keeps one step, where steps were to change.

@@ -1,7 +1,7 @@
 //! To rest by the shortest way: the step grows as the forces die, and in the end it is Newton's.
 //!
-//! A scheme of equal steps takes as many of them as the slowest part of a curve takes time. Whoever
-//! wants the rest alone can let the step grow when little moves: this is pseudo-transient
+//! A scheme of equal steps takes as many of them as the slowest part of a curve takes time. Where
+//! only the rest matters, the step can grow when little moves: this is pseudo-transient
 //! continuation.
 
 use glam::DVec2;

@@ -1,4 +1,4 @@
-//! What can be wrong with an outline, each with what was given and what would do.
+//! What can be wrong with an outline, each with what was given and what is needed.
 
 use glam::DVec2;
 
@@ -11,7 +11,7 @@ pub enum OutlineError {
     TooFewNodes {
         /// What needs them.
         what: &'static str,
-        /// The least that would do.
+        /// The least that is allowed.
         needed: usize,
         /// What was given.
         got: usize,
@@ -37,7 +37,7 @@ pub enum OutlineError {
     BadNumber {
         /// Which number.
         name: &'static str,
-        /// What would do.
+        /// What is needed.
         bound: &'static str,
         /// What was given.
         value: f64,

@@ -1,10 +1,10 @@
 //! Who is near whom: stretches of other curves, and far stretches of the same one, around every node.
 //!
 //! All edges of all curves are filed in one grid, in the same memory each time. For every node a list is kept of the
-//! edges within reach and a margin more ([verlet67]); as long as no node has moved by half the margin the lists hold all
-//! that can be within reach, and the grid is not built again. What is found is the same with lists and without. What
-//! cannot be done yet: a sweep through the time of a step; a node that passes through a curve within one step is seen on
-//! the other side.
+//! edges within reach and a margin more ([verlet67]); as long as no node has moved by half the margin the lists hold
+//! all that can be within reach, and the grid is not built again. What is found is the same with lists and without.
+//! What cannot be done yet: a sweep through the time of a step; a node that passes through a curve within one step is
+//! seen on the other side.
 
 use crate::error::{check_not_negative, check_points};
 use crate::grid::Grid;

@@ -1,5 +1,5 @@
 //! What can be wrong with a scene. Every message names the key or the file, what was given, and
-//! what would do.
+//! what is needed.
 
 use io::IoError;
 pub(crate) use io::text::clip;
@@ -13,7 +13,7 @@ pub enum SceneError {
     Key {
         /// The key as written, with its table: `material.tension`.
         key: String,
-        /// What was given and what would do.
+        /// What was given and what is needed.
         message: String,
     },
     /// Text that is no scene: syntax, unknown key, wrong type.
@@ -21,7 +21,7 @@ pub enum SceneError {
     Text {
         /// Line, from 1.
         line: usize,
-        /// What is wrong and what would do.
+        /// What is wrong and what is needed.
         message: String,
     },
     /// No shipped scene has this name.

@@ -131,7 +131,7 @@ impl Fields {
     }
 }
 
-/// What a region would do with each pixel.
+/// Which way a region pushes at each pixel.
 fn push_of(region: &dyn Region, (width, height): (usize, usize), curve: &[DVec2]) -> Grid {
     let mut push = Grid::zeros((height, width));
     let mut scratch = RegionScratch::default();

@@ -7,8 +7,9 @@ use crate::SceneError;
 use crate::file::ForceText;
 use crate::meaning::force_now;
 
-/// The hands of a scene: forces and holds, each on one snake, from one time until another. [`Scene::run`](crate::Scene::run)
-/// lets them take hold and let go after the steps whose times these are; the default has none.
+/// The hands of a scene: forces and holds, each on one snake, from one time until another.
+/// [`Scene::run`](crate::Scene::run) lets them take hold and let go after the steps whose times these are; the
+/// default has none.
 ///
 /// A hand looks at the curve when it takes hold: a spring is at the point of the curve nearest *then*, frozen nodes stay where they are
 /// *then*. An observer of [`snake::Simulation::run`] may make any [`Edit`].

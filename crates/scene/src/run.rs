@@ -15,7 +15,8 @@ use crate::scene::{Recording, Scene, refused_step};
 use crate::{Evidence, SceneError};
 
 impl Scene {
-    /// Everything that moves, at its start: what [`Scene::run`] runs. Forces and holds of hands come and go in a run only.
+    /// Everything that moves, at its start: what [`Scene::run`] runs. Forces and holds of hands come and go in a run
+    /// only.
     ///
     /// # Errors
     ///

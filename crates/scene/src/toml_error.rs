@@ -1,4 +1,4 @@
-//! TOML's own messages, turned into one line that names the place and what would do.
+//! TOML's own messages, turned into one line that names the place and what is needed.
 
 use serde::Deserialize as _;
 

@@ -21,19 +21,19 @@ pub enum SnakeError {
         what: &'static str,
         /// What was given.
         name: String,
-        /// What would do.
+        /// What is needed.
         known: &'static str,
     },
     /// Something that a turning frame cannot carry.
     #[error("a frame that turns by its own equation needs {needed}")]
     NotInTurningFrame {
-        /// What would do.
+        /// What is needed.
         needed: &'static str,
     },
     /// A snake whose ends cannot grow.
     #[error("ends that grow need {needed}")]
     CannotGrow {
-        /// What would do.
+        /// What is needed.
         needed: &'static str,
     },
     /// A line that nothing can slide along.
@@ -52,7 +52,7 @@ pub enum SnakeError {
     BadNumber {
         /// The user's word for it.
         name: &'static str,
-        /// What would do.
+        /// What is needed.
         bound: &'static str,
         /// What was given.
         value: f64,

@@ -1,7 +1,7 @@
 //! The hand: forces that come and go during a run, and nodes held fast.
 //!
-//! A [`Simulation`](crate::Simulation) does this by [`Edit`](crate::Edit). Its account of energies books under `hand` what
-//! the change itself has put in or taken.
+//! A [`Simulation`](crate::Simulation) does this by [`Edit`](crate::Edit). Its account of energies books under `hand`
+//! what the change itself has put in or taken.
 
 use outline::Plan;
 

@@ -1,8 +1,8 @@
 //! Snakes: elastic curves with mass in a physical world.
 //!
-//! Three crates meet here. [`elastic`] says what force a deformed curve exerts on itself, [`field`] what force a picture
-//! exerts at a point, [`integrator`] where a system of masses is one step later; here they become one [`Snake`], which
-//! moves by
+//! Three crates meet here. [`elastic`] says what force a deformed curve exerts on itself, [`field`] what force a
+//! picture exerts at a point, [`integrator`] where a system of masses is one step later; here they become one
+//! [`Snake`], which moves by
 //!
 //! ```text
 //! μ ẍ + γ ẋ + K e = f                                     (report Eq. 3.4)
@@ -30,10 +30,10 @@
 //! It does no I/O and knows no file, no format and no drawing. A run ends with an [`Outcome`];
 //! blowing up is one of them, not an error.
 //!
-//! A [`Simulation`] is one snake or many that meet, keeps their outlines valid and even, and is changed between two steps
-//! by [`Edit`]s. The body frame turns with the body where [`Turn::Fit`] says so; [`Turning`] is the same as the report's
-//! three equations have it (§5.2). [`Damping`] is chosen by rules (§3.4.2), which [`Settling`] compares. [`Pressure`]
-//! makes a snake a balloon (§5.4).
+//! A [`Simulation`] is one snake or many that meet, keeps their outlines valid and even, and is changed between two
+//! steps by [`Edit`]s. The body frame turns with the body where [`Turn::Fit`] says so; [`Turning`] is the same as the
+//! report's three equations have it (§5.2). [`Damping`] is chosen by rules (§3.4.2), which [`Settling`] compares.
+//! [`Pressure`] makes a snake a balloon (§5.4).
 
 mod account;
 mod algebra;

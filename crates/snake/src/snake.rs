@@ -248,8 +248,8 @@ impl Snake {
 
     /// Settle what depends on the curve that a run begins with: which way is out for a pressure,
     /// and the sign of an automatic
-    /// one. What is settled stays. A [`Simulation`](crate::Simulation) asks for it; where a snake is stepped without one,
-    /// the first force that acts does.
+    /// one. What is settled stays. A [`Simulation`](crate::Simulation) asks for it; where a snake is stepped without
+    /// one, the first force that acts does.
     pub fn settle(&mut self, state: &State) {
         if state.len() == self.len() {
             let (forces, curve) = self.forces(state.t, &state.x, &state.v);

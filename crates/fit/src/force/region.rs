@@ -17,7 +17,7 @@ use super::{
 const NATS: f64 = 3.0;
 
 impl Sight {
-    /// The channels to look at, smoothed: colors if there are and nobody wants grey.
+    /// The channels to look at, smoothed: colors if there are and grey was not asked for.
     fn looked_at(&self, sigma: f64, grey: bool) -> Result<Vec<MaskedImage>, ForceError> {
         let sigma = self.sigma(sigma)?;
         let image = &self.image;

@@ -229,7 +229,7 @@ impl<'a> Sheet<'a> {
         self.keep(&format!("{name}.tiff"), &float_tiff(&[&x, &y])?)
     }
 
-    /// What a region would do with each pixel, for this closed curve: as a picture with the curve,
+    /// Which way a region pushes at each pixel, for this closed curve: as a picture with the curve,
     /// and as numbers.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! The doors that numbers pass, each with a message that says what would do.
+//! The doors that numbers pass, each with a message that says what is needed.
 
 use glam::DVec2;
 

@@ -13,7 +13,8 @@ pub struct Entry {
     pub snake: Snake,
     /// Where it is, and how fast.
     pub state: State,
-    /// Inertial forces of a frame that turns by its own equation ([`Turning`](crate::Turning)); None for any other frame.
+    /// Inertial forces of a frame that turns by its own equation ([`Turning`](crate::Turning)); None for any other
+    /// frame.
     pub terms: Option<Vec<Term>>,
     /// Ends that grow, and after how many steps each time.
     pub tips: Option<(Tips, u64)>,
@@ -43,8 +44,9 @@ pub struct Stepping {
     /// snakes left out; these are met in equal parts of the step, below a quarter of their own limit. None: steps as
     /// they are. L.
     pub tolerance: Option<f64>,
-    /// Go to rest by the shortest way in place of the scheme ([`Relaxation`](integrator::Relaxation)): steps that grow as the forces die, none
-    /// of which moves a node by more than so much; `dt` is the first. For a lone snake. L.
+    /// Go to rest by the shortest way in place of the scheme ([`Relaxation`](integrator::Relaxation)): steps that
+    /// grow as the forces die, none of which moves a node by more than so much; `dt` is the first. For a lone snake.
+    /// L.
     pub relax: Option<f64>,
     /// With a tolerance and one snake: every sub-step is a step of its own, and `dt` is the time of the whole run.
     pub each: bool,

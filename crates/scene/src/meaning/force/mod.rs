@@ -95,7 +95,8 @@ const fn asks_inside(kind: &KindText) -> bool {
     )
 }
 
-/// The force of a `[[force]]`, or of one chosen for a fit, with its weight and schedule; one for each scale of a schedule of scales.
+/// The force of a `[[force]]`, or of one chosen for a fit, with its weight and schedule; one for each scale of a
+/// schedule of scales.
 fn acting(around: &Around<'_>, text: &ForceText) -> Result<Vec<Acting>, SceneError> {
     let (key, n) = (around.key, around.nodes.len());
     if let KindText::CoarseToFine(scales) = &text.kind
