@@ -100,7 +100,7 @@ fn run(asked: &Asked) -> Result<bool, SandboxError> {
     for experiment in chosen(asked, TRIALS) {
         let one = sandbox::perform(experiment)?;
         println!("{} ({:.1} s)", experiment.title, one.took.as_secs_f64());
-        tell(&one);
+        println!("{}", one.told());
         for drawing in &one.drawings {
             folder.write(&drawing.file, &drawing.bytes)?;
         }
@@ -120,22 +120,6 @@ fn run(asked: &Asked) -> Result<bool, SandboxError> {
     folder.write("index.html", page(&done).as_bytes())?;
     println!("open {}", folder.path().join("index.html").display());
     Ok(done.iter().all(Done::holds))
-}
-
-fn tell(one: &Done) {
-    for (claim, finding) in one.experiment.claims.iter().zip(&one.findings) {
-        let verdict = if finding.holds {
-            "holds"
-        } else {
-            "DOES NOT HOLD"
-        };
-        println!(
-            "{verdict}: {} ({}): {}",
-            claim.says(),
-            claim.source(),
-            finding.measured
-        );
-    }
 }
 
 fn check(asked: &Asked) -> Result<bool, SandboxError> {

@@ -167,7 +167,7 @@ fn run(id: &str, out: Option<&Path>) -> Result<bool, SandboxError> {
         "{} · {}\n{}\n",
         experiment.place, experiment.title, experiment.question
     );
-    tell(&done);
+    println!("{}", done.told());
     println!("\n{}", done.record.numbers_csv().trim_end());
     if let Some(folder) = folder {
         write_drawings(&folder, &done)?;
@@ -195,7 +195,7 @@ fn atlas(place: &Place, only: &[String]) -> Result<bool, SandboxError> {
         let one = perform(experiment)?;
         bar.suspend(|| {
             println!("{} ({:.1} s)", experiment.title, one.took.as_secs_f64());
-            tell(&one);
+            println!("{}", one.told());
         });
         write_drawings(&folder, &one)?;
         write_tables(&folder, &one)?;
@@ -206,22 +206,6 @@ fn atlas(place: &Place, only: &[String]) -> Result<bool, SandboxError> {
     folder.write("index.html", page(&done).as_bytes())?;
     println!("open {}", folder.path().join("index.html").display());
     Ok(done.iter().all(Done::holds))
-}
-
-fn tell(done: &Done) {
-    for (claim, finding) in done.experiment.claims.iter().zip(&done.findings) {
-        let verdict = if finding.holds {
-            "holds"
-        } else {
-            "DOES NOT HOLD"
-        };
-        println!(
-            "{verdict}: {} ({}): {}",
-            claim.says(),
-            claim.source(),
-            finding.measured
-        );
-    }
 }
 
 fn figures(asked: &Figures) -> Result<bool, SandboxError> {

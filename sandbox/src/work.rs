@@ -38,6 +38,22 @@ impl Done {
     pub fn holds(&self) -> bool {
         self.findings.iter().all(|finding| finding.holds)
     }
+
+    /// A line for each claim: whether it holds, where it comes from, what was measured.
+    #[must_use]
+    pub fn told(&self) -> String {
+        let claims = self.experiment.claims.iter().zip(&self.findings);
+        let lines = claims.map(|(claim, finding)| {
+            let verdict = if finding.holds {
+                "holds"
+            } else {
+                "DOES NOT HOLD"
+            };
+            let (says, source) = (claim.says(), claim.source());
+            format!("{verdict}: {says} ({source}): {}", finding.measured)
+        });
+        lines.collect::<Vec<_>>().join("\n")
+    }
 }
 
 /// The committed drawings in the source tree this program was built from.
