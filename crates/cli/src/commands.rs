@@ -42,7 +42,7 @@ pub(crate) fn run(args: &args::Run, words: Words) -> Answer {
     }
     match args.dt {
         Some(args::Step::Fixed(_)) if plan.each => {
-            let message = "this scene has no steps to count; its time in dt and steps would do";
+            let message = "this scene has no steps to count; needed: its time in dt and steps";
             return Err(key("--dt", message));
         }
         Some(args::Step::Fixed(dt)) => plan.set_step(dt),

@@ -399,7 +399,7 @@ fn places_along_the_body_that_are_not_there_are_refused() {
     changed(
         "rigidity = 1.0",
         "rigidity = 1.0\ncorners = [20]",
-        &["material.corners", "no node 20; 0 to 19"],
+        &["material.corners", "no node 20; needed: 0 to 19"],
     );
     changed(
         "rigidity = 1.0",

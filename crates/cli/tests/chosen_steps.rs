@@ -173,7 +173,7 @@ fn snakes_that_meet_are_moved_by_chosen_sub_steps_too() {
         "e.toml",
         balls("dt = \"auto\"\noutput = \"every\"\ntime = 10.0\n"),
     );
-    folder.refused(&["run", "e.toml"], &["run.output", "share", "would do"]);
+    folder.refused(&["run", "e.toml"], &["run.output", "share", "needed: "]);
 }
 
 #[test]

@@ -118,7 +118,7 @@ pub enum SchemeError {
     },
     /// The matrix of an implicit step has no factor.
     #[error(
-        "the step's matrix cannot be factored: {0}; mass, damping or stiffness above 0 would do"
+        "the step's matrix cannot be factored: {0}; needed: mass, damping or stiffness above 0"
     )]
     Matrix(#[from] BandedError),
 }

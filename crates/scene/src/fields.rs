@@ -92,7 +92,7 @@ impl Fields {
                 .filter(|name| ForceChoice::parse(name).is_ok_and(|choice| shown(&choice)))
                 .collect();
             let message = format!(
-                "{} is no field of the picture; one of {} would do",
+                "{} is no field of the picture; needed: one of {}",
                 choice.kind(),
                 kinds.join(", ")
             );

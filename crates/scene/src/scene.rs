@@ -257,22 +257,21 @@ impl Scene {
     pub fn check(&self) -> Result<(), SceneError> {
         let plan = &self.plan;
         if plan.until.steps > MOST_STEPS {
-            let message = format!("at most {MOST_STEPS} would do, got {}", plan.until.steps);
+            let message = format!("must be at most {MOST_STEPS}, got {}", plan.until.steps);
             return Err(SceneError::key("run.steps", message));
         }
         let n = self.snake.body().len();
         let kept = plan.recording.kept(plan.until.steps, n);
         // how many sub-steps there will be is not known yet
         if kept > MOST_KEPT && !plan.each {
-            let message = format!(
-                "would keep {kept} points; at most {MOST_KEPT}, so fewer moments, would do"
-            );
+            let message =
+                format!("would keep {kept} points; needed: at most {MOST_KEPT}, so fewer moments");
             return Err(SceneError::key("record.every", message));
         }
         let maps = &self.snake.body().maps;
         if !maps.is_empty() && matches!(plan.scheme, Scheme::Exact | Scheme::Etd2) {
             let message = format!(
-                "{} finds all modes of the curve beforehand, and maps change them at every step; leapfrog or newmark would do",
+                "{} finds all modes of the curve beforehand, and maps change them at every step; needed: leapfrog or newmark",
                 plan.scheme.name()
             );
             return Err(SceneError::key("run.scheme", message));
@@ -307,25 +306,25 @@ impl Scene {
             }
             self.check_substeps()?;
             if self.company.is_some() && plan.each {
-                let message = "snakes that meet are written at times they share; a time between steps would do";
+                let message = "snakes that meet are written at times they share; needed: a time between steps";
                 return Err(SceneError::key("run.output", message));
             }
             if maps.every > 0.0 {
-                let message = "steps that are tried and made again would look again as well; 0, at every step, would do";
+                let message = "steps that are tried and made again would look again as well; needed: 0, at every step";
                 return Err(SceneError::key("maps.every", message));
             }
             if plan.scheme == Scheme::Report {
                 let message = "the scheme report keeps one step: its velocity and its damping are differences over it, \
-                               and would jump with it; leapfrog is the same motion and would do";
+                               and would jump with it; needed: leapfrog, which is the same motion";
                 return Err(SceneError::key("run.scheme", message));
             }
             if self.tips.is_some() {
-                let message = "\"auto\" is for curves of as many nodes; a number would do";
+                let message = "\"auto\" is for curves of as many nodes; needed: a number";
                 return Err(SceneError::key("run.dt", message));
             }
             if self.terms.is_some() {
                 let message =
-                    "\"auto\" is for frames without an equation of their own; a number would do";
+                    "\"auto\" is for frames without an equation of their own; needed: a number";
                 return Err(SceneError::key("run.dt", message));
             }
         }

@@ -98,7 +98,7 @@ fn rules_of_damping_that_are_none_are_refused_with_what_would_do() {
         ("[run]", "[upkeep]\nstretch = 2.0\n[run]"),
         ("\"critical\"", "\"renewed(1)\""),
     ];
-    assert!(refused("calmed-oval", &looked_after).contains("\"local\" would do"));
+    assert!(refused("calmed-oval", &looked_after).contains("needed: \"local\""));
 }
 
 #[test]
@@ -199,7 +199,7 @@ fn a_picture_that_rotates_takes_a_turning_oval_with_it_and_strains_one_that_does
     let (_, strained) = strain("frame = \"translating\"");
     assert!(calm < 0.05 * strained, "{calm} {strained}");
     for (from, to, says) in [
-        ("spin = 0.01\n", "", "with it spin would do"),
+        ("spin = 0.01\n", "", "needed: spin with it"),
         (
             "about = [63.5, 63.5]",
             "about = [1e12, 0.0]",

@@ -185,7 +185,7 @@ fn hands_that_will_not_do_are_refused_by_their_key() {
         ),
         (
             "[[hand]]\nforce = { kind = \"edge\" }",
-            "looks at the picture; a [[force]]",
+            "looks at the picture; needed: a [[force]]",
         ),
         (
             "[[hand]]\nforce = { kind = \"spring\", node = 40, to = [0.0, 0.0], stiffness = 1.0 }",

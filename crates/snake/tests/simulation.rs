@@ -189,7 +189,7 @@ fn a_snake_joins_and_another_leaves() {
         SimulationError::NoSuchSnake { id: 0 }
     ));
     let gone = gone.snake.edits();
-    assert_eq!(gone, 0, "nobody has changed it");
+    assert_eq!(gone, 0, "the edit did not change it");
 }
 
 #[test]

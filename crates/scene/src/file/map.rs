@@ -119,7 +119,7 @@ impl<'de> Deserialize<'de> for ParameterText {
         let given = match table.remove("value") {
             Some(value) if table.is_empty() => value,
             Some(_) => {
-                let message = "value is the whole profile; without the other key it would do";
+                let message = "value is the whole profile; needed: no other key beside it";
                 return Err(serde::de::Error::custom(message));
             }
             None => toml::Value::Table(table),

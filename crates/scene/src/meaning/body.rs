@@ -20,7 +20,7 @@ pub(crate) fn profile(key: &str, text: &ProfileText, n: usize) -> Result<Profile
         ProfileText::PerNode(values) if values.len() == n => Ok(Profile::PerNode(values.clone())),
         ProfileText::PerNode(values) => {
             let got = values.len();
-            let message = format!("has {got} numbers for {n} nodes; one a node would do");
+            let message = format!("has {got} numbers for {n} nodes; needed: one a node");
             Err(SceneError::key(key, message))
         }
         ProfileText::Along(along) => {
@@ -46,7 +46,7 @@ pub(crate) fn straight(
     pairs: &[[f64; 2]],
 ) -> Result<Schedule, SceneError> {
     let refuse = |message: String| {
-        let message = format!("{message}; [[{first}, {second}], …] would do");
+        let message = format!("{message}; needed: [[{first}, {second}], …]");
         Err(SceneError::key(key, message))
     };
     if pairs.is_empty() {
@@ -108,7 +108,7 @@ fn material(text: &SceneText, n: usize) -> Result<Material, SceneError> {
         ("material.breaks", &m.breaks),
     ] {
         if let Some(bad) = list.iter().find(|&&i| i >= n) {
-            let message = format!("there is no node {bad}; 0 to {} would do", n - 1);
+            let message = format!("there is no node {bad}; needed: 0 to {}", n - 1);
             return Err(SceneError::key(key, message));
         }
     }
@@ -160,7 +160,7 @@ pub(super) fn body(text: &SceneText, rules: Rules, files: &Files<'_>) -> Result<
     let frame = match &text.snake.frame {
         None | Some(FrameText::Word(FrameWord::Translating)) => frame,
         Some(_) if rules.frame == Rule::Report => {
-            let message = "the report's frame does not turn; rules.frame = \"corrected\" would do";
+            let message = "the report's frame does not turn; needed: rules.frame = \"corrected\"";
             return Err(SceneError::key("snake.frame", message));
         }
         Some(_) => Frame::turning(),
@@ -201,7 +201,7 @@ pub(super) fn damp(text: &SceneText, snake: &mut Snake, start: &State) -> Result
             "critical" => Damping::Mode(0),
             other => other.parse().map_err(|_| {
                 refuse(format!(
-                    "there is no rule {:?}; {known} would do",
+                    "there is no rule {:?}; needed: {known}",
                     clip(other)
                 ))
             })?,
@@ -210,7 +210,7 @@ pub(super) fn damp(text: &SceneText, snake: &mut Snake, start: &State) -> Result
             (Damping::Mode(mode), true) => Ok(Damping::InternalMode(mode)),
             (Damping::Mode(_) | Damping::Local | Damping::Renewed(_), false) => Ok(rule),
             _ => Err(refuse(format!(
-                "{rule} is no rule of this key; {known} would do"
+                "{rule} is no rule of this key; needed: {known}"
             ))),
         }
     };
@@ -223,7 +223,7 @@ pub(super) fn damp(text: &SceneText, snake: &mut Snake, start: &State) -> Result
         let key = "densities.damping";
         let rule = chosen(key, word, false)?;
         if matches!(rule, Damping::Renewed(_)) && text.upkeep.is_some() {
-            let message = "nodes that come and go are damped as their neighbours are; with [upkeep] \"local\" would do";
+            let message = "nodes that come and go are damped as their neighbours are; needed: \"local\" with [upkeep]";
             return Err(SceneError::key(key, message));
         }
         rules.push((key, rule));
@@ -258,7 +258,7 @@ pub(super) fn start(
     let x = nodes(text, &text.snake.start, "snake.start", rules, files)?;
     if x.len() != body.len() {
         let (got, needed) = (x.len(), body.len());
-        let message = format!("has {got} nodes, but the rest shape has {needed}; as many would do");
+        let message = format!("has {got} nodes, but the rest shape has {needed}; needed: as many");
         return Err(SceneError::key("snake.start", message));
     }
     let velocity = number::place("snake.velocity", text.snake.velocity)?;

@@ -22,7 +22,7 @@ pub(super) fn picture(text: &DrawnText) -> Result<Picture, SceneError> {
     let pixels = (width as u64).saturating_mul(height as u64);
     if pixels == 0 || pixels > MOST_DRAWN {
         let message =
-            format!("got {width} × {height}; from 1 × 1 to {MOST_DRAWN} pixels in all would do");
+            format!("got {width} × {height}; needed: from 1 × 1 to {MOST_DRAWN} pixels in all");
         return Err(key("size", message));
     }
     for (name, value, most) in [
@@ -32,7 +32,7 @@ pub(super) fn picture(text: &DrawnText) -> Result<Picture, SceneError> {
         ("foreground", text.foreground, 255.0),
     ] {
         if !(0.0..=most).contains(&value) {
-            return Err(key(name, format!("got {value}; from 0 to {most} would do")));
+            return Err(key(name, format!("got {value}; needed: from 0 to {most}")));
         }
     }
     check_region(&text.region)?;
@@ -114,7 +114,7 @@ fn check_region(region: &RegionText) -> Result<(), SceneError> {
         RegionText::Any(list) => {
             let nested = list.iter().any(|one| matches!(one, RegionText::Any(_)));
             if nested || !(1..=MOST_CORNERS).contains(&list.len()) {
-                let message = format!("1 to {MOST_CORNERS} regions that are no lists would do");
+                let message = format!("needed: 1 to {MOST_CORNERS} regions that are no lists");
                 return Err(SceneError::key("picture.drawn.region.any", message));
             }
             list.iter().try_for_each(check_region)
@@ -127,7 +127,7 @@ fn check_region(region: &RegionText) -> Result<(), SceneError> {
                 Ok(())
             } else {
                 let (got, most) = (road.points.len(), MOST_CORNERS);
-                let message = format!("has {got} places; from 2 to {most} would do");
+                let message = format!("has {got} places; needed: from 2 to {most}");
                 Err(SceneError::key(&at("road.points"), message))
             }
         }

@@ -31,7 +31,7 @@ pub(super) fn slide(
             EndText::Rail(rail) => {
                 if rail.rail.len() > MOST_NODES {
                     let message = format!(
-                        "has {} places; at most {MOST_NODES} would do",
+                        "has {} places; needed: at most {MOST_NODES}",
                         rail.rail.len()
                     );
                     return Err(SceneError::key(key, message));
@@ -42,7 +42,7 @@ pub(super) fn slide(
             }
             EndText::Word(EndWord::Border) => {
                 let Some(picture) = picture else {
-                    let message = "there is no picture whose border to slide along; { rail = [[x, y], …] } would do";
+                    let message = "there is no picture whose border to slide along; needed: { rail = [[x, y], …] }";
                     return Err(SceneError::key(key, message));
                 };
                 let (width, height) = picture.size();
@@ -64,7 +64,7 @@ pub(super) fn slide(
         let foot = outline_foot(&line, closed, at);
         if at.distance(foot) > snake.body().spacing {
             let message = format!(
-                "starts {:.2} from the line it slides along; at most a spacing, {:.2}, would do",
+                "starts {:.2} from the line it slides along; needed: at most a spacing, {:.2}",
                 at.distance(foot),
                 snake.body().spacing
             );
@@ -102,7 +102,7 @@ pub(super) fn tips(
     let Some(picture) = picture else {
         return Err(refuse(
             "",
-            &"there is no picture to grow along; one with a line would do",
+            &"there is no picture to grow along; needed: one with a line",
         ));
     };
     if text
@@ -112,7 +112,7 @@ pub(super) fn tips(
     {
         return Err(refuse(
             "",
-            &"ends grow under forces that are fields of the picture; those alone would do",
+            &"ends grow under forces that are fields of the picture; needed: those alone",
         ));
     }
     let sigma = tips.sigma.unwrap_or(2.0);
@@ -126,7 +126,7 @@ pub(super) fn tips(
     if most > MOST_NODES {
         return Err(refuse(
             ".most",
-            &format!("at most {MOST_NODES} would do, got {most}"),
+            &format!("must be at most {MOST_NODES}, got {most}"),
         ));
     }
     let failed = |e: FieldError| SceneError::key("tips", e);

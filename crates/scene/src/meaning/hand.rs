@@ -158,7 +158,7 @@ fn nodes(
 ) -> Result<Vec<usize>, SceneError> {
     if first >= n || last >= n || (first > last && !closed) {
         let message = format!(
-            "[first, last] from 0 to {} would do, got [{first}, {last}]",
+            "needed: [first, last] from 0 to {}, got [{first}, {last}]",
             n - 1
         );
         return Err(SceneError::key(&format!("{key}: hold"), message));
@@ -174,7 +174,7 @@ fn blind(key: &str, force: &ForceText) -> Result<(), SceneError> {
         kind => force::looks(kind),
     };
     if asks {
-        let message = "looks at the picture; a [[force]] of its own with a schedule would do";
+        let message = "looks at the picture; needed: a [[force]] of its own with a schedule";
         return Err(SceneError::key(&format!("{key}: kind"), message));
     }
     Ok(())

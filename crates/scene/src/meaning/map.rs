@@ -58,7 +58,7 @@ pub(super) fn maps(
     };
     if maps.mass.is_some() && text.upkeep.as_ref().is_some_and(divides) {
         let message = "new nodes are handed the mass of their stretch of curve, and a map gives each place its own; \
-                       without stretch, least-area and merge in [upkeep] it would do";
+                       needed: no stretch, least-area and merge in [upkeep]";
         return Err(SceneError::key("densities.mass.map", message));
     }
     Ok(maps)
@@ -86,7 +86,7 @@ impl<'a> Made<'a> {
                 None if whole => Ok(usual),
                 None => Err(SceneError::key(
                     &key,
-                    format!("is the factor where the share is {usual}; a number would do"),
+                    format!("is the factor where the share is {usual}; needed: a number"),
                 )),
                 Some(value) if value.is_finite() && value >= 0.0 => Ok(value),
                 Some(value) => {
@@ -99,7 +99,7 @@ impl<'a> Made<'a> {
         if let Some([from, to]) = text.range
             && !(from >= 0.0 && to > from && to.is_finite())
         {
-            let message = format!("two shares from 0 on that ascend would do, got [{from}, {to}]");
+            let message = format!("needed: two shares from 0 on that ascend, got [{from}, {to}]");
             return Err(SceneError::key(&format!("{key}.range"), message));
         }
         let source = format!("{key}.map");
@@ -115,7 +115,7 @@ impl<'a> Made<'a> {
         };
         let map = Arc::new(map.map_err(refuse)?);
         if map.least() < 0.0 {
-            let message = format!("has factors down to {}; at least 0 would do", map.least());
+            let message = format!("has factors down to {}; needed: at least 0", map.least());
             return Err(SceneError::key(&source, message));
         }
         self.known.push((text, Arc::clone(&map)));
@@ -130,11 +130,11 @@ impl<'a> Made<'a> {
         }
         let Some(picture) = self.picture else {
             let message =
-                "is made from the picture, and there is none; [picture] or { file = … } would do";
+                "is made from the picture, and there is none; needed: [picture] or { file = … }";
             return Err(SceneError::key(key, message));
         };
         if picture.valid().is_some() {
-            let message = "knows nothing of pixels that do not count; { file = … } would do";
+            let message = "knows nothing of pixels that do not count; needed: { file = … }";
             return Err(SceneError::key(key, message));
         }
         let gaussian = |name: &str, given: Option<f64>, usual: f64| {
@@ -175,7 +175,7 @@ impl<'a> Made<'a> {
         {
             let ((a, b), (width, height)) = (map.size(), picture.size());
             let message =
-                format!("has {a}×{b} pixels and the picture {width}×{height}; as many would do");
+                format!("has {a}×{b} pixels and the picture {width}×{height}; needed: as many");
             return Err(SceneError::key(key, message));
         }
         Ok(map.levels().mapv(|level| level / 255.0))

@@ -149,11 +149,11 @@ fn picture(text: &PictureText, files: &Files<'_>) -> Result<Picture, SceneError>
         (None, None, Some(drawn)) => drawn::picture(drawn),
         (None, None, None) => Err(SceneError::key(
             "picture",
-            "is not given; one of the keys file, shipped and drawn would do",
+            "is not given; needed: one of the keys file, shipped and drawn",
         )),
         _ => Err(SceneError::key(
             "picture",
-            "is given more than once; one of the keys file, shipped and drawn would do",
+            "is given more than once; needed: one of the keys file, shipped and drawn",
         )),
     }?;
     match &text.mask {
@@ -174,7 +174,7 @@ fn view(text: &ViewText) -> Result<View, SceneError> {
             let high = number::place("view.window", [x1, y1])?;
             if low.cmpge(high).any() {
                 let message = format!(
-                    "[x0, y0, x1, y1] with x0 < x1 and y0 < y1 would do, got [{x0}, {y0}, {x1}, {y1}]"
+                    "needed: [x0, y0, x1, y1] with x0 < x1 and y0 < y1, got [{x0}, {y0}, {x1}, {y1}]"
                 );
                 return Err(SceneError::key("view.window", message));
             }

@@ -64,7 +64,7 @@ pub(crate) fn places(key: &str, list: &[DVec2]) -> Result<(), SceneError> {
         Some(i) => {
             let p = list[i];
             let message = format!(
-                "point {i} is ({}, {}); coordinates from -{FARTHEST:e} to {FARTHEST:e} would do",
+                "point {i} is ({}, {}); needed: coordinates from -{FARTHEST:e} to {FARTHEST:e}",
                 p.x, p.y
             );
             Err(SceneError::key(key, message))

@@ -57,7 +57,7 @@ fn step(run: &RunText) -> Result<(f64, Option<f64>), SceneError> {
                 ("run.output", run.output.is_some()),
             ] {
                 if given {
-                    let message = "is for chosen steps; with it dt = \"auto\" would do";
+                    let message = "is for chosen steps; needed: dt = \"auto\" with it";
                     return Err(SceneError::key(key, message));
                 }
             }
@@ -72,12 +72,12 @@ fn step(run: &RunText) -> Result<(f64, Option<f64>), SceneError> {
                     return Ok((number::above_zero("run.time", time)?, Some(tolerance)));
                 }
                 (Some(OutputText::Every), None) => {
-                    let message = "is missing; the time at which the run ends would do";
+                    let message = "is missing; needed: the time at which the run ends";
                     return Err(SceneError::key("run.time", message));
                 }
                 (None, Some(time)) => time / 1000.0,
                 (None, None) => {
-                    let message = "is missing; the time between two steps would do";
+                    let message = "is missing; needed: the time between two steps";
                     return Err(SceneError::key("run.output", message));
                 }
             };
@@ -105,11 +105,11 @@ fn steps(run: &RunText, dt: f64, rules: Rules) -> Result<u64, SceneError> {
         }
         (None, None) => Err(SceneError::key(
             "run",
-            "never ends; one of the keys steps and time would do",
+            "never ends; needed: one of the keys steps and time",
         )),
         (Some(_), Some(_)) => Err(SceneError::key(
             "run",
-            "has both steps and time; one of them would do",
+            "has both steps and time; needed: one of them",
         )),
     }
 }
@@ -119,7 +119,7 @@ fn at_most(steps: u64) -> Result<u64, SceneError> {
     if steps <= MOST_STEPS {
         return Ok(steps);
     }
-    let message = format!("at most {MOST_STEPS} would do, got {steps}");
+    let message = format!("must be at most {MOST_STEPS}, got {steps}");
     Err(SceneError::key("run.steps", message))
 }
 

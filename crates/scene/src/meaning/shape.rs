@@ -58,7 +58,7 @@ pub(super) fn nodes(
     maker.nodes(shape, key, &|_| match text.snake.nodes {
         None => Err(SceneError::key(
             NODES,
-            "is missing; the number of nodes would do",
+            "is missing; needed: the number of nodes",
         )),
         Some(NodesText::Count(n)) => few_enough(NODES, n),
         Some(NodesText::Apart(distance)) => {
@@ -163,7 +163,7 @@ fn few_enough(key: &str, n: usize) -> Result<usize, SceneError> {
     if n <= MOST_NODES {
         Ok(n)
     } else {
-        let message = format!("got {n}; at most {MOST_NODES} would do");
+        let message = format!("got {n}; needed: at most {MOST_NODES}");
         Err(SceneError::key(key, message))
     }
 }

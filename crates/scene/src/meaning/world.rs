@@ -45,15 +45,15 @@ pub(super) fn force_field(
     match rules.field {
         Rule::Report => {
             if f.sigma.is_some() {
-                let message = "the report's field smooths by passes; those would do";
+                let message = "the report's field smooths by passes; needed: those";
                 return Err(SceneError::key("field.sigma", message));
             }
             if picture.valid().is_some() {
-                let message = "the report's field knows no mask; field = \"corrected\" would do";
+                let message = "the report's field knows no mask; needed: field = \"corrected\"";
                 return Err(SceneError::key("rules.field", message));
             }
             if f.computed == Some(ComputedText::Lazy) {
-                let message = "the report's field is made as a whole; \"whole\" would do";
+                let message = "the report's field is made as a whole; needed: \"whole\"";
                 return Err(SceneError::key("field.computed", message));
             }
             smoothing("field.passes", binomial, picture.size())?;
@@ -209,8 +209,8 @@ pub(crate) fn outside(places: &[DVec2], picture: &Picture, margin: f64) -> Optio
         .position(|p| !(p.cmpge(DVec2::splat(least)).all() && p.cmple(most).all()))?;
     let p = places[i];
     Some(format!(
-        "{i} at ({:.2}, {:.2}) is outside the picture of {width}×{height} pixels; x from 0 to {} \
-         and y from 0 to {} would do",
+        "{i} at ({:.2}, {:.2}) is outside the picture of {width}×{height} pixels; needed: x from 0 to {} \
+         and y from 0 to {}",
         p.x,
         p.y,
         width - 1,

@@ -51,7 +51,7 @@ impl Around<'_> {
             None => {
                 let area = signed_area(self.nodes).abs();
                 if area.is_nan() || area <= 0.0 {
-                    let message = "the start encloses nothing; an area above 0 would do";
+                    let message = "the start encloses nothing; needed: an area above 0";
                     return Err(SceneError::key(&self.at("area"), message));
                 }
                 area
@@ -78,7 +78,7 @@ impl Around<'_> {
                 Path::new(points).map_err(|e| SceneError::key(&key, e))
             }
             _ => {
-                let message = "one of a place and a path, [[time, x, y], …], would do";
+                let message = "needed: one of a place and a path, [[time, x, y], …]";
                 Err(SceneError::key(&self.at(name), message))
             }
         }
@@ -92,7 +92,7 @@ impl Around<'_> {
             (Some(node), None) => {
                 if node >= self.nodes.len() {
                     let last = self.nodes.len() - 1;
-                    let message = format!("there is no node {node}; 0 to {last} would do");
+                    let message = format!("there is no node {node}; needed: 0 to {last}");
                     return Err(SceneError::key(&self.at("node"), message));
                 }
                 Spring::at_node(node, target, stiffness)
@@ -103,7 +103,7 @@ impl Around<'_> {
                     .map_err(self.refuse())?
             }
             _ => {
-                let message = "one of node and from, a place near the curve, would do";
+                let message = "needed: one of node and from, a place near the curve";
                 return Err(SceneError::key(&self.at("node"), message));
             }
         };
@@ -123,7 +123,7 @@ impl Around<'_> {
         let backwards = first > last && !self.closed;
         if first >= n || last >= n || backwards {
             let message = format!(
-                "[first, last] from 0 to {} would do, got [{first}, {last}]",
+                "needed: [first, last] from 0 to {}, got [{first}, {last}]",
                 n - 1
             );
             return Err(SceneError::key(&self.at("stretch"), message));
@@ -142,7 +142,7 @@ impl Around<'_> {
         if self.closed {
             return Ok(());
         }
-        let message = format!("{word} asks what is inside; a closed curve would do");
+        let message = format!("{word} asks what is inside; needed: a closed curve");
         Err(SceneError::key(&self.at("kind"), message))
     }
 }

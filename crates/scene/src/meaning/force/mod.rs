@@ -105,13 +105,13 @@ fn acting(around: &Around<'_>, text: &ForceText) -> Result<Vec<Acting>, SceneErr
         let hold = scales
             .hold
             .map_or_else(String::new, |hold| format!(" ({hold} here)"));
-        let message = format!("coarse-to-fine has one of its own; its hold{hold} would do");
+        let message = format!("coarse-to-fine has one of its own; needed: its hold{hold}");
         return Err(SceneError::key(&format!("{key}: schedule"), message));
     }
     let mut list = around.forces(&text.kind)?;
     if let Some(rate) = text.common.spin {
         if matches!(text.kind, KindText::CoarseToFine(_)) {
-            let message = "coarse-to-fine does not spin; edge would do";
+            let message = "coarse-to-fine does not spin; needed: edge";
             return Err(SceneError::key(&format!("{key}: spin"), message));
         }
         let rate = number::coordinate(&format!("{key}: spin"), rate)?;
@@ -119,7 +119,8 @@ fn acting(around: &Around<'_>, text: &ForceText) -> Result<Vec<Acting>, SceneErr
             (Some(about), _) => number::place(&format!("{key}: about"), about)?,
             (None, Some(sight)) => middle(sight.image().size()),
             (None, None) => {
-                let message = "is missing, and there is no picture to spin about its middle; a place would do";
+                let message =
+                    "is missing, and there is no picture to spin about its middle; needed: a place";
                 return Err(SceneError::key(&format!("{key}: about"), message));
             }
         };
@@ -127,7 +128,7 @@ fn acting(around: &Around<'_>, text: &ForceText) -> Result<Vec<Acting>, SceneErr
             *acting = Acting::new(Turned::new(acting.force().boxed(), about, rate));
         }
     } else if text.common.about.is_some() {
-        let message = "is of a force that spins; with it spin would do";
+        let message = "is of a force that spins; needed: spin with it";
         return Err(SceneError::key(&format!("{key}: about"), message));
     }
     let weight = match &text.common.weight {
