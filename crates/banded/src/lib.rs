@@ -29,6 +29,7 @@ mod chain;
 mod circulant;
 mod complex;
 mod dense;
+mod diagonal;
 mod eigen;
 mod error;
 mod factor;

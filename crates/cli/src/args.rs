@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 
+use crate::eval::flags as eval;
+
 /// What the codes mean, in every help.
 const CODES: &str = "Exit code 0: at rest, or ran as asked. 1: ran, but blew up, left the picture, found no outline, \
                      was stopped, or ran out of steps before rest. 2: refused, and why.";
@@ -40,9 +42,12 @@ pub(crate) enum Command {
     /// Write every stage from a picture to its force field, or every kind of field, as pictures and numbers.
     #[command(after_help = CODES)]
     Field(Field),
-    /// Pull a drawn contour onto the edges of a picture.
-    #[command(after_help = CODES)]
-    Fit(Fit),
+    /// Find outlines in pictures: of what is drawn roughly around, clicked on, or masked.
+    #[command(after_help = CODES, after_long_help = crate::fit::EXAMPLES)]
+    Fit(Box<crate::fit::Flags>),
+    /// Score the fit of `fit` on a data set whose truth is known.
+    #[command(after_help = eval::CODES)]
+    Eval(eval::Eval),
     /// Print the text of a scene: a shipped one by name, or a TOML file.
     #[command(after_help = CODES)]
     Show(Show),
@@ -153,53 +158,6 @@ impl std::str::FromStr for Change {
     }
 }
 
-/// Where a fit starts, as typed.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Start {
-    /// x and y of the center, and the radius.
-    Circle([f64; 3]),
-    /// Left, top, width and height.
-    Box([f64; 4]),
-    /// A file of points.
-    File(PathBuf),
-}
-
-impl std::str::FromStr for Start {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if let Some(numbers) = text.strip_prefix("circle:") {
-            let numbers: [f64; 3] = finite(numbers, "circle:X,Y,RADIUS")?;
-            let [_, _, radius] = numbers;
-            if radius <= 0.0 {
-                return Err(format!("the radius must be above 0, got {radius}"));
-            }
-            return Ok(Self::Circle(numbers));
-        }
-        if let Some(numbers) = text.strip_prefix("box:") {
-            let numbers: [f64; 4] = finite(numbers, "box:LEFT,TOP,WIDTH,HEIGHT")?;
-            let [_, _, width, height] = numbers;
-            if width <= 0.0 || height <= 0.0 {
-                let message = format!("width and height must be above 0, got {width} and {height}");
-                return Err(message);
-            }
-            return Ok(Self::Box(numbers));
-        }
-        Ok(Self::File(PathBuf::from(text)))
-    }
-}
-
-/// So many finite numbers with commas between them.
-fn finite<const N: usize>(text: &str, form: &str) -> Result<[f64; N], String> {
-    let wrong = || format!("must be {form} with numbers, got {text}");
-    let numbers = text.split(',').map(|number| number.trim().parse::<f64>());
-    let numbers: Vec<f64> = numbers.collect::<Result<_, _>>().map_err(|_| wrong())?;
-    if numbers.iter().any(|number| !number.is_finite()) {
-        return Err(wrong());
-    }
-    numbers.try_into().map_err(|_| wrong())
-}
-
 /// A step as typed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Step {
@@ -249,76 +207,6 @@ pub(crate) struct Field {
     /// The closed contour that regions compare the inside and the outside of; a circle in the middle if not given.
     #[arg(long, value_name = "CONTOUR")]
     pub from: Option<PathBuf>,
-}
-
-#[derive(Debug, ClapArgs)]
-pub(crate) struct Fit {
-    /// The picture: PNG, JPEG, TIFF, PGM or PPM; `-` is standard input.
-    pub image: PathBuf,
-    /// The contour to start from: `circle:X,Y,RADIUS` or `box:LEFT,TOP,WIDTH,HEIGHT` in pixels, the first
-    /// pixel's center at 0,0; or a file of x,y in pixels; `-` is standard input.
-    #[arg(long, short, value_name = "START")]
-    pub from: Start,
-    /// Write the contour found; standard output if not given or `-`.
-    #[arg(long, short, value_name = "CONTOUR")]
-    pub out: Option<PathBuf>,
-    /// Write the picture with the start (blue) and the contour found (orange) over it.
-    #[arg(long, value_name = "PNG")]
-    pub overlay: Option<PathBuf>,
-    /// The contour is open.
-    #[arg(long, conflicts_with = "closed")]
-    pub open: bool,
-    /// The contour is closed, whatever its file says.
-    #[arg(long)]
-    pub closed: bool,
-    /// Number of nodes; one every four pixels if not given.
-    #[arg(long, short, value_name = "N")]
-    pub nodes: Option<usize>,
-    /// How hard each node is held to its place in the start's shape.
-    #[arg(long, value_name = "W0", allow_negative_numbers = true, default_value_t = scene::fit::Options::default().tether)]
-    pub tether: f64,
-    /// How hard the curve resists stretching out of the start's shape.
-    #[arg(long, value_name = "W1", allow_negative_numbers = true, default_value_t = scene::fit::Options::default().tension)]
-    pub tension: f64,
-    /// How hard the curve resists bending out of the start's shape.
-    #[arg(long, value_name = "W2", allow_negative_numbers = true, default_value_t = scene::fit::Options::default().rigidity)]
-    pub rigidity: f64,
-    /// How strongly the motion is damped.
-    #[arg(long, value_name = "G", allow_negative_numbers = true, default_value_t = scene::fit::Options::default().damping)]
-    pub damping: f64,
-    /// A force to pull with (see `list forces`) instead of the edge force; may be given again. With a
-    /// weight as `gvf:0.5`, with keys of its own as `{ kind = "edge", sigma = 2.0 }`.
-    #[arg(long, value_name = "KIND")]
-    pub force: Vec<String>,
-    /// Which edges attract, going outwards across the contour.
-    #[arg(long, value_enum, default_value_t = Polarity::Either)]
-    pub polarity: Polarity,
-    /// Whether the edge force is computed only where the contour goes, or for the whole picture in double precision;
-    /// `auto` is lazy wherever that is exact enough.
-    #[arg(long, value_enum, default_value_t = Computed::Auto)]
-    pub computed: Computed,
-    /// Pressure inside the contour, in pulls of an edge: it grows, or shrinks below 0; 0.1 is much.
-    #[arg(
-        long,
-        value_name = "S",
-        allow_negative_numbers = true,
-        default_value_t = 0.0
-    )]
-    pub balloon: f64,
-    /// Width of the Gaussian that smooths the picture for the edge force, pixels; the reach is about three times that.
-    /// If not given, the square root of 10, about 3.16.
-    #[arg(long, value_name = "PX", allow_negative_numbers = true)]
-    pub sigma: Option<f64>,
-    /// How hard the edge force pulls; 1 suits most.
-    #[arg(long, value_name = "S", allow_negative_numbers = true, default_value_t = scene::fit::Options::default().strength)]
-    pub strength: f64,
-    /// Equal steps of this length; if not given, steps that grow on the way to rest (with --force: half of
-    /// the largest that is stable anywhere in the picture, and at most 0.2).
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
-    pub dt: Option<f64>,
-    /// Steps at most.
-    #[arg(long, value_name = "N", default_value_t = scene::fit::Options::default().steps)]
-    pub steps: u64,
 }
 
 #[derive(Debug, ClapArgs)]

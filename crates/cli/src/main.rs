@@ -5,7 +5,8 @@
 
 mod args;
 mod commands;
-mod fitting;
+mod eval;
+mod fit;
 mod manual;
 mod output;
 mod stop;
@@ -25,7 +26,8 @@ fn main() -> ExitCode {
     let outcome = match args.command {
         args::Command::Run(run) => commands::run(&run, words),
         args::Command::Field(field) => commands::field(&field, words),
-        args::Command::Fit(fit) => fitting::fit(&fit, words),
+        args::Command::Fit(flags) => fit::fit(&flags, words),
+        args::Command::Eval(eval) => eval::eval(&eval, words),
         args::Command::Show(show) => commands::show(&show),
         args::Command::List(list) => commands::list(&list, words),
         args::Command::Completions(completions) => manual::completions(&completions),

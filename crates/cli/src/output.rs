@@ -17,8 +17,13 @@ const FOUND: [u8; 3] = [230, 97, 1];
 
 /// Write to standard output; a reader that has gone away (`| head`) is no error.
 pub(crate) fn put(text: &str) -> Result<(), SceneError> {
+    put_bytes(text.as_bytes())
+}
+
+/// [`put`] for what may be no text.
+pub(crate) fn put_bytes(bytes: &[u8]) -> Result<(), SceneError> {
     let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match out.write_all(bytes).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(key(
             "standard output",
             format!("cannot be written: {error}; a file or another reader is needed"),
@@ -58,7 +63,7 @@ impl Words {
 }
 
 /// Whether standard output is the null device, which also stands in for one that was closed.
-fn goes_nowhere() -> bool {
+pub(crate) fn goes_nowhere() -> bool {
     #[cfg(unix)]
     {
         use std::os::unix::fs::{FileTypeExt as _, MetadataExt as _};

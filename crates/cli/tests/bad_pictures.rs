@@ -78,7 +78,10 @@ fn a_picture_of_one_pixel_or_one_row_is_one_without_a_force() {
         assert_eq!(answer.code, Some(0), "{width}×{height}: {answer:?}");
         let corner = format!("0,0\n{0},0\n{0},{1}\n0,{1}\n", width - 1, height - 1);
         folder.write("c.csv", corner);
-        let answer = folder.snake(&["fit", "a.pgm", "--from", "c.csv", "--out", "o.csv"]);
+        let fit = [
+            "fit", "a.pgm", "--from", "c.csv", "--method", "motion", "--out", "o.csv",
+        ];
+        let answer = folder.snake(&fit);
         // there may be no room for a curve: refused, or run against the border; both are said
         assert!(
             answer.code.is_some_and(|code| code < 3),
@@ -137,8 +140,14 @@ fn a_missing_picture_or_a_folder_is_refused() {
     std::fs::create_dir(folder.path("d")).unwrap();
     for (name, says) in [("no.png", "No such file"), ("d", "directory")] {
         folder.refused(&["field", name, "--out", "out"], &[name, says]);
-        folder.refused(&["fit", name, "--from", "c.csv"], &[name, says]);
     }
+    folder.refused(
+        &["fit", "no.png", "--from", "c.csv"],
+        &["no.png", "No such file"],
+    );
+    folder.refused(&["fit", "d", "--from", "c.csv"], &["--out-dir", "folder"]);
+    let empty = ["fit", "d", "--from", "c.csv", "--out-dir", "o"];
+    folder.refused(&empty, &["d holds no picture"]);
     let text = scene(&[("[snake]", "[picture]\nfile = \"no.png\"\n[snake]")]);
     folder.write("s.toml", text);
     folder.refused(&["run", "s.toml"], &["s.toml", "no.png", "No such file"]);
@@ -154,13 +163,15 @@ fn contour(bytes: impl AsRef<[u8]>, more: &[&str], says: &[&str]) {
         "a.pgm",
         "--from",
         "c.csv",
+        "--method",
+        "motion",
         "--out",
         "o.csv",
         "--overlay",
         "o.png",
     ];
     folder.refused(&[&args, more].concat(), says);
-    let args = ["fit", "a.pgm", "--from", "-"];
+    let args = ["fit", "a.pgm", "--from", "-", "--method", "motion"];
     folder.refused_reading(&[&args, more].concat(), bytes, &says[1..]);
 }
 

@@ -381,7 +381,8 @@ fn kinds_of_force_are_listed_refused_and_fitted_with() {
     folder.refused(&[&fit[..], &[wide]].concat(), &["--force edge: sigma"]);
     // the edge force does not reach twenty pixels, these do
     let reached = |args: &[&str]| {
-        let answer = folder.snake(&[&["fit", "disc.pgm", "--from", "c.csv"], args].concat());
+        let fit = ["fit", "disc.pgm", "--from", "c.csv", "--method", "motion"];
+        let answer = folder.snake(&[&fit[..], args].concat());
         off(&shapes::parse_one(&answer.out).unwrap(), center, 25.0)
     };
     assert!(reached(&[]) > 10.0);
@@ -441,8 +442,9 @@ fn help_reads_well_and_names_every_flag() {
                 "--closed",
                 "--nodes",
                 "--tension",
-                "[default: 20]",
-                "first pixel's center",
+                "--method",
+                "20 if not given",
+                "pixel's center at 0,0",
             ],
         ),
         ("list", &["scenes", "schemes", "forces"]),

@@ -121,17 +121,28 @@ fn every_curve_of_a_run_is_written_and_read_back() {
         let x = curve.iter().map(|p| p.0).sum::<f64>() / 20.0;
         assert!((x - middle).abs() < 0.1, "{x}");
     }
-    // what holds two is not read as one
+    // a file of several outlines starts several: the second has no edge, which is told
     folder.write("a.pgm", disc(200, [30.0, 30.0], 12.0));
     folder.write("found.csv", &answer.out);
-    let says = ["found.csv", "holds 2 curves"];
-    folder.refused(&["fit", "a.pgm", "--from", "found.csv"], &says);
+    let fit = ["fit", "a.pgm", "--from", "found.csv"];
+    let both = folder.snake(&fit);
+    assert_eq!(both.code, Some(1), "{both:?}");
+    assert!(
+        both.err.contains("outline 1 of 2") && both.out.starts_with("# outline 2: unsure"),
+        "{both:?}"
+    );
+    assert_eq!(io::shapes::parse(&both.out).unwrap().len(), 2);
     for joined in [
         "x,y\n1,2\n3,4\n5,1\n\n11,2\n13,4\n15,1\n",
         "x,y,id\n1,2,a\n3,4,a\n11,2,b\n13,4,b\n",
     ] {
         folder.write("found.csv", joined);
-        folder.refused(&["fit", "a.pgm", "--from", "found.csv"], &says);
+        // small ones without an edge, and ones of too few points
+        let answer = folder.snake(&fit);
+        assert!(
+            answer.code != Some(0) && answer.err.contains("outline"),
+            "{answer:?}"
+        );
     }
 }
 

@@ -30,7 +30,7 @@ fn quiet_says_nothing_and_verbose_a_line_for_each_choice() {
     assert_eq!(quiet.err, "");
     assert_eq!(quiet.out, plain.out);
     assert_eq!(verbose.out, plain.out);
-    for start in ["contrast: ", "nodes: ", "edge force: ", "scheme: "] {
+    for start in ["contrast: ", "edge: ", "near the start: ", "last stage: "] {
         let line = |answer: &Answer| answer.err.lines().any(|line| line.starts_with(start));
         assert!(line(&verbose), "{start}: {verbose:?}");
         assert!(!line(&plain), "{start}: {plain:?}");
@@ -50,7 +50,7 @@ fn json_is_one_line_alone_on_standard_output() {
     let told: serde_json::Value = serde_json::from_str(&answer.out).unwrap();
     assert_eq!(told["outcome"], "settled");
     assert_eq!(told["good"], true);
-    assert_eq!(told["chosen"].as_array().unwrap().len(), 4);
+    assert!(told["chosen"].as_array().unwrap().len() >= 4);
     let area = told["curves"][0]["area"].as_f64().unwrap();
     let disc = std::f64::consts::PI * 625.0;
     assert!((area / disc - 1.0).abs() < 0.03, "{area}, not {disc}");

@@ -30,7 +30,9 @@ fn fit(start: &str, flags: &[&str]) -> (Option<i32>, String) {
     folder.write("c.csv", start);
     let answer = folder.snake(
         &[
-            &["fit", "a.pgm", "--from", "c.csv", "--out", "f.csv"],
+            &[
+                "fit", "a.pgm", "--from", "c.csv", "--method", "motion", "--out", "f.csv",
+            ],
             flags,
         ]
         .concat(),
@@ -77,7 +79,9 @@ fn a_curve_that_loses_its_area_or_turns_over_is_no_outline() {
     }
     text += "0,60\n";
     folder.write("c.csv", text);
-    let answer = folder.snake(&["fit", "half.pgm", "--from", "c.csv", "--out", "f.csv"]);
+    let answer = folder.snake(&[
+        "fit", "half.pgm", "--from", "c.csv", "--method", "motion", "--out", "f.csv",
+    ]);
     says(&(answer.code, answer.err), 1, "collapsed");
     let turned = fit(&circle([50.0, 50.0], 24.0, 20), &["--balloon", "-3"]);
     assert_eq!(turned.0, Some(1), "{turned:?}");
@@ -95,7 +99,9 @@ fn a_bar_thinner_than_the_smoothing_is_told() {
     }
     folder.write("bar.pgm", bytes);
     folder.write("c.csv", "x,y\n29,27\n131,27\n131,33\n29,33\n");
-    let answer = folder.snake(&["fit", "bar.pgm", "--from", "c.csv", "--out", "f.csv"]);
+    let answer = folder.snake(&[
+        "fit", "bar.pgm", "--from", "c.csv", "--method", "motion", "--out", "f.csv",
+    ]);
     says(&(answer.code, answer.err), 0, "the smoothing resolves 7.9");
 }
 

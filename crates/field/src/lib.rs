@@ -19,6 +19,7 @@
 //! | a schedule from coarse to fine | [`coarse_to_fine`] |
 //! | edges to a fraction of a pixel | [`edge_points`] |
 //! | noise, contrast and blur of a picture | [`image_scale`] |
+//! | a picture whose truth is known | [`drawn`] |
 //! | a number at every place, from grey, edges, contrast or distance | [`Map`] and [`grey_share`], [`edge_share`], … |
 //! | a longer reach | [`distance_force`], [`point_distance_force`], [`vector_flow`] (GVF), [`vector_convolution`] (VFC) |
 //!
@@ -48,8 +49,7 @@ mod canny;
 mod convolution;
 mod diffusion;
 mod distance;
-#[cfg(test)]
-mod drawn;
+pub mod drawn;
 mod edge;
 mod error;
 mod fast;

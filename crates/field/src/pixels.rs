@@ -22,6 +22,12 @@ pub trait Pixels: fmt::Debug + Send + Sync {
         self.levels()[[y, x]]
     }
 
+    /// Red, green and blue of one pixel, 0 to 255 where the image is of a screen; its level three times where it is
+    /// grey.
+    fn color(&self, x: usize, y: usize) -> [f64; 3] {
+        [self.level(x, y); 3]
+    }
+
     /// The channels that color forces look at.
     fn channels(&self) -> Vec<Grid> {
         vec![self.levels().clone()]

@@ -55,6 +55,8 @@ pub enum OptionKey {
     Step,
     /// [`Options::steps`](crate::Options::steps).
     Steps,
+    /// A rule of [`Options::search`](crate::Options::search), by its name.
+    Search(&'static str),
     /// The spring of [`Edit::Pull`](crate::Edit::Pull).
     Pull,
     /// A force of [`Options::forces`](crate::Options::forces), by its index, and which value of it.
@@ -77,6 +79,7 @@ impl fmt::Display for OptionKey {
             Self::Balloon => "balloon",
             Self::Step => "step",
             Self::Steps => "steps",
+            Self::Search(name) => name,
             Self::Pull => "pull",
             Self::Force(index, ForceKey::All) => return write!(f, "force {index}"),
             Self::Force(index, key) => return write!(f, "force {index}, {}", key.word()),
@@ -250,6 +253,8 @@ pub enum Problem {
 fn bound(least: u64, most: u64, got: u64) -> String {
     if got > most {
         format!("at most {most}")
+    } else if most == u64::MAX {
+        format!("at least {least}")
     } else {
         format!("{least} to {most}")
     }

@@ -24,7 +24,7 @@ const FIRM: f64 = 0.01;
 const LEAST_HELD: f64 = 0.05;
 
 /// The least area, against that of the start.
-const LEAST_AREA: f64 = 0.1;
+pub(crate) const LEAST_AREA: f64 = 0.1;
 
 /// Normals whose product is below this face each other.
 const OPPOSITE: f64 = -0.5;
@@ -38,9 +38,41 @@ pub struct Evidence {
     pub crossings: usize,
     /// Signed area at the start and at the end, of a closed curve. Square pixels.
     pub area: Option<(f64, f64)>,
+    /// Why a search is not sure of its outline, if it is not.
+    pub doubt: Option<Doubt>,
     /// Parts of the curve that face each other more closely than the image's smoothing can resolve,
     /// if any.
     pub narrow: Option<Narrow>,
+}
+
+/// Why a search is not sure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// Too little of the best curve lies on an edge.
+    NoEdge {
+        /// Strength of edge that four fifths of it have. 0 … 1.
+        closed: f64,
+        /// The least that is needed.
+        needed: f64,
+    },
+    /// Every curve that was found folds, crosses itself or has collapsed: the start is given back.
+    Folded,
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoEdge { closed, needed } => write!(
+                f,
+                "unsure: no boundary here that closes; four fifths of the best outline have an edge of {closed:.2} of the \
+                 strongest, needed: {needed:.2}"
+            ),
+            Self::Folded => f.write_str(
+                "unsure: every outline found folds, crosses itself or has collapsed; this is the start",
+            ),
+        }
+    }
 }
 
 /// Where two parts of a curve face each other most closely. Pixels.
@@ -67,6 +99,7 @@ impl Evidence {
         Self {
             held: share(&held(snake, end)),
             crossings,
+            doubt: None,
             area,
             narrow: width.and_then(|width| narrow(&end.x, closed, width)),
         }
@@ -75,6 +108,9 @@ impl Evidence {
     /// Why this is no outline, if it is none.
     #[must_use]
     pub fn objection(&self) -> Option<String> {
+        if let Some(doubt) = self.doubt {
+            return Some(doubt.to_string());
+        }
         if let Some((before, after)) = self.area {
             if before * after < 0.0 {
                 return Some("the curve is turned inside out".to_owned());

@@ -194,6 +194,10 @@ impl Pixels for Colors {
         &self.levels
     }
 
+    fn color(&self, x: usize, y: usize) -> [f64; 3] {
+        self.channels.each_ref().map(|channel| channel[[y, x]])
+    }
+
     fn channels(&self) -> Vec<Grid> {
         self.channels.to_vec()
     }
@@ -221,6 +225,10 @@ impl Pixels for Masked {
 
     fn level(&self, x: usize, y: usize) -> f64 {
         self.image.0.level(x, y)
+    }
+
+    fn color(&self, x: usize, y: usize) -> [f64; 3] {
+        self.image.0.color(x, y)
     }
 
     fn channels(&self) -> Vec<Grid> {

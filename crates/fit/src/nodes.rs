@@ -33,8 +33,9 @@ pub(crate) fn node_evidence(
     }
     let held = held(snake, end);
     let offsets = offsets(snake, end, &out, FAR * sigma.max(1.0));
-    let steepest = NORMAL_AT_0 * prepared.sight().contrast() / sigma;
-    let image = prepared.sight().image();
+    let contrast = prepared.sight().map_or(1.0, crate::force::Sight::contrast);
+    let steepest = NORMAL_AT_0 * contrast / sigma;
+    let image = prepared.image();
     let nodes = end.x.iter().zip(out).zip(held).zip(offsets);
     nodes
         .map(|(((&at, normal), held), offset)| {
@@ -45,6 +46,7 @@ pub(crate) fn node_evidence(
                 strength: slope.abs() / steepest,
                 offset,
                 held,
+                error: None,
             }
         })
         .collect()

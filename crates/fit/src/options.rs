@@ -11,13 +11,17 @@ use crate::force::{Computing, ImageForceKind, PULL, Sight};
 use crate::limits::MOST_STEPS;
 use crate::{FitError, OptionKey, Problem};
 
-/// How to fit a contour to an image. The default suits outlines of some tens to thousands of pixels
-/// drawn within about ten pixels of an edge.
+/// How to fit a contour to an image. The default suits objects of some ten to thousands of pixels, drawn
+/// roughly around, along or inside their outline.
 ///
 /// L is a pixel, T a unit of time, M a unit of mass; strengths are relative to the image's
 /// contrast.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
+    /// How the outline is found. What follows after `search` is of a motion only.
+    pub method: Method,
+    /// How the searches go.
+    pub search: search::Rules,
     /// How many nodes the curve has.
     pub nodes: Nodes,
     /// ω₀: how hard each node is held to its place in the start's shape. M T⁻².
@@ -54,7 +58,9 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Self {
-            nodes: Nodes::Every(4.0),
+            method: Method::Search,
+            search: search::Rules::default(),
+            nodes: Nodes::Auto,
             tether: 0.0,
             tension: 20.0,
             rigidity: 100.0,
@@ -88,6 +94,7 @@ impl Options {
         ] {
             Problem::above_zero(value).map_err(|problem| FitError::new(key, problem))?;
         }
+        self.check_search()?;
         if let Nodes::Every(spacing) = self.nodes {
             let checked = Problem::above_zero(spacing);
             checked.map_err(|problem| FitError::new(OptionKey::Nodes, problem))?;
@@ -114,9 +121,73 @@ impl Options {
     }
 }
 
+impl Options {
+    /// The options of a motion from the start, all others as usual.
+    #[must_use]
+    pub fn motion() -> Self {
+        let method = Method::Motion;
+        Self {
+            method,
+            ..Self::default()
+        }
+    }
+
+    fn check_search(&self) -> Result<(), FitError> {
+        let rules = &self.search;
+        for (name, value) in [
+            ("tether", rules.tether),
+            ("region", rules.region),
+            ("inward", rules.inward),
+            ("outward", rules.outward),
+            ("outer", rules.outer),
+            ("sure", rules.sure),
+            ("unsure", rules.unsure),
+            ("pure", rules.pure),
+        ] {
+            Problem::at_least_zero(value)
+                .map_err(|problem| FitError::new(OptionKey::Search(name), problem))?;
+        }
+        let within = [
+            ("inward", rules.inward, 0.9),
+            ("outward", rules.outward, 2.0),
+            ("around", rules.around, 8.0),
+        ];
+        for (name, got, most) in within {
+            if !(0.0..=most).contains(&got) {
+                let needed = if most < 1.0 {
+                    "from 0 to 0.9"
+                } else if most < 3.0 {
+                    "from 0 to 2"
+                } else {
+                    "from 0 to 8"
+                };
+                return Err(FitError::new(
+                    OptionKey::Search(name),
+                    Problem::Number { needed, got },
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// How an outline is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Method {
+    /// The best curve of all about the start, by searches; then the sub-pixel stage along its normals. Fast, and
+    /// hardly depends on where the start is.
+    #[default]
+    Search,
+    /// The curve moves from the start under the image's forces and its own until it comes to rest.
+    Motion,
+}
+
 /// How many nodes a curve has.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Nodes {
+    /// One a pixel of an outline found by a search, one for each four pixels of the start of a motion; at least 24 and
+    /// 16, at most 6000 and 4000.
+    Auto,
     /// So many.
     Count(usize),
     /// One for each so many pixels of the start; 16 at least and 4000 at most. L.
@@ -134,6 +205,7 @@ impl Nodes {
     pub fn along(self, length: f64) -> usize {
         match self {
             Self::Count(count) => count,
+            Self::Auto => Self::Every(4.0).along(length),
             Self::Every(spacing) => (length / spacing).clamp(16.0, 4000.0).round() as usize,
         }
     }

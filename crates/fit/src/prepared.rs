@@ -1,13 +1,14 @@
 //! An image made ready for fits: its forces, once for all curves and threads.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use field::{EdgeForce, ForceField, Polarity, Smoothing};
 use glam::DVec2;
 use snake::{Acting, ImageForce, Pressure, Sampling, World};
 
+use crate::finder::found;
 use crate::force::{Edge, ForceKey, ImageForceKind, PULL, Sight, check_smoothing};
-use crate::options::Step;
+use crate::options::{Method, Step};
 use crate::session::Session;
 use crate::{Contour, Fit, FitError, FitForce, Image, OptionKey, Options, Problem};
 
@@ -34,7 +35,15 @@ pub struct Prepared(Arc<Inner>);
 #[derive(Debug)]
 struct Inner {
     options: Options,
-    sight: Sight,
+    image: Image,
+    /// What a motion needs of the image, once it is asked for.
+    forces: OnceLock<Result<Forces, FitError>>,
+}
+
+/// The forces of an image.
+#[derive(Debug)]
+pub(crate) struct Forces {
+    pub(crate) sight: Sight,
     /// The field of the usual edge force, where that alone pulls.
     usual: Option<Arc<ForceField>>,
     /// The chosen forces.
@@ -57,21 +66,16 @@ impl Prepared {
     /// more time or memory than there is.
     pub fn of(image: &Image, options: &Options) -> Result<Self, FitError> {
         options.check()?;
-        let sight = Sight::of(image.clone(), options.computing, 0)
-            .map_err(|problem| FitError::new(OptionKey::Image, problem))?;
-        let usual = options.forces.is_empty() && options.polarity == Polarity::Either;
-        let mut inner = Inner {
+        let inner = Inner {
             options: options.clone(),
-            sight,
-            usual: None,
-            chosen: Vec::new(),
+            image: image.clone(),
+            forces: OnceLock::new(),
         };
-        if usual {
-            inner.usual = Some(Arc::new(inner.usual_field()?));
-        } else {
-            inner.choose()?;
+        let prepared = Self(Arc::new(inner));
+        if options.method == Method::Motion {
+            prepared.forces()?;
         }
-        Ok(Self(Arc::new(inner)))
+        Ok(prepared)
     }
 
     /// Fit a contour that starts there.
@@ -81,10 +85,13 @@ impl Prepared {
     /// By its key: a start with too few points or outside the image, too many nodes, a force that
     /// only a closed curve can have.
     pub fn fit(&self, start: &Contour) -> Result<Fit, FitError> {
-        Ok(self.session(start)?.finish())
+        match self.0.options.method {
+            Method::Search => found(self, start),
+            Method::Motion => Ok(self.session(start)?.finish()),
+        }
     }
 
-    /// The same step by step.
+    /// A motion from a start step by step, whatever the method.
     ///
     /// # Errors
     ///
@@ -99,31 +106,49 @@ impl Prepared {
         &self.0.options
     }
 
-    /// The image as its forces see it.
+    /// The image.
     #[must_use]
-    pub fn sight(&self) -> &Sight {
-        &self.0.sight
+    pub fn image(&self) -> &Image {
+        &self.0.image
     }
 
-    /// The field of the edge force, where that alone pulls.
+    /// The image as forces see it.
+    ///
+    /// # Errors
+    ///
+    /// As [`Prepared::of`] with [`Method::Motion`].
+    pub fn sight(&self) -> Result<&Sight, FitError> {
+        Ok(&self.forces()?.sight)
+    }
+
+    /// The field of the edge force, where that alone pulls; None where it does not, or nothing has moved yet.
     #[must_use]
     pub fn field(&self) -> Option<&Arc<ForceField>> {
-        self.0.usual.as_ref()
+        self.0.forces.get()?.as_ref().ok()?.usual.as_ref()
     }
 
-    /// The gain of the usual edge force.
-    pub(crate) fn gain(&self) -> f64 {
-        self.0.gain()
+    /// What a motion needs of the image, made when it is first asked for.
+    pub(crate) fn forces(&self) -> Result<&Forces, FitError> {
+        let made = self
+            .0
+            .forces
+            .get_or_init(|| Forces::of(&self.0.image, &self.0.options));
+        made.as_ref().map_err(Clone::clone)
     }
 
     /// The forces on a curve of these nodes.
     pub(crate) fn world(&self, nodes: &[DVec2], closed: bool) -> Result<World, FitError> {
-        let Inner { options, sight, .. } = &*self.0;
+        let options = &self.0.options;
+        let Forces {
+            sight,
+            usual,
+            chosen,
+        } = self.forces()?;
         let mut world = World::default();
-        if let Some(usual) = &self.0.usual {
+        if let Some(usual) = usual {
             world = world.with(ImageForce::new(Arc::clone(usual), Sampling::Bilinear));
         }
-        for (index, chosen) in self.0.chosen.iter().enumerate() {
+        for (index, chosen) in chosen.iter().enumerate() {
             let list = match &chosen.force {
                 FitForce::Image { kind, .. } => {
                     if kind.is_region() && !closed {
@@ -155,29 +180,47 @@ impl Prepared {
     /// The field is computed where the curve goes, and not as a whole for this: its slopes are
     /// bounded by the image's range of levels, H. With gain g, the force of one dimension has the
     /// slope g (H/2) ∫|G‴| at most, and ∫|G‴| = 2 (1 + 4 e^(−3/2)) / (√(2π) σ³) for a Gaussian G.
-    pub(crate) fn steepest(&self) -> f64 {
-        let sigma = self.0.options.sigma;
+    pub(crate) fn steepest(&self, forces: &Forces) -> f64 {
+        let options = &self.0.options;
+        let sigma = options.sigma;
         let total = 2.0 * (1.0 + 4.0 * (-1.5_f64).exp());
         let sharp = (std::f64::consts::TAU.sqrt() * sigma.powi(3)).recip();
-        0.5 * self.gain() * self.0.sight.range() * total * sharp
+        0.5 * forces.gain(options) * forces.sight.range() * total * sharp
     }
 
     /// Whether the usual edge force alone is chosen to pull, in steps of the finder's own choice.
     pub(crate) fn relaxes(&self) -> bool {
-        self.0.usual.is_some() && self.0.options.step == Step::Chosen
+        self.field().is_some() && self.0.options.step == Step::Chosen
     }
 }
 
-impl Inner {
-    fn gain(&self) -> f64 {
-        let usual = EdgeForce::as_strong_as_the_report().gain;
-        self.options.strength * usual * 120.0 / self.sight.contrast()
+impl Forces {
+    fn of(image: &Image, options: &Options) -> Result<Self, FitError> {
+        let sight = Sight::of(image.clone(), options.computing, 0)
+            .map_err(|problem| FitError::new(OptionKey::Image, problem))?;
+        let mut forces = Self {
+            sight,
+            usual: None,
+            chosen: Vec::new(),
+        };
+        if options.forces.is_empty() && options.polarity == Polarity::Either {
+            forces.usual = Some(Arc::new(forces.usual_field(options)?));
+        } else {
+            forces.choose(options)?;
+        }
+        Ok(forces)
     }
 
-    fn usual_field(&self) -> Result<ForceField, FitError> {
+    /// The gain of the usual edge force.
+    pub(crate) fn gain(&self, options: &Options) -> f64 {
+        let usual = EdgeForce::as_strong_as_the_report().gain;
+        options.strength * usual * 120.0 / self.sight.contrast()
+    }
+
+    fn usual_field(&self, options: &Options) -> Result<ForceField, FitError> {
         let rule = EdgeForce {
-            smoothing: Smoothing::Gaussian(self.options.sigma),
-            gain: self.gain(),
+            smoothing: Smoothing::Gaussian(options.sigma),
+            gain: self.gain(options),
         };
         self.sight.edge_field(rule).map_err(|error| {
             let key = match error.key {
@@ -189,8 +232,7 @@ impl Inner {
     }
 
     /// The chosen forces, or the usual one of the chosen polarity.
-    fn choose(&mut self) -> Result<(), FitError> {
-        let options = &self.options;
+    fn choose(&mut self, options: &Options) -> Result<(), FitError> {
         let mut forces = options.forces.clone();
         if forces.is_empty() {
             let sigma = options.sigma;

@@ -5,7 +5,7 @@ use std::fmt;
 use glam::DVec2;
 use snake::Outcome;
 
-use crate::{Contour, Evidence};
+use crate::{Contour, Evidence, Searched};
 
 /// An outline that has been found, and what there is to know of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,10 +16,9 @@ pub struct Fit {
     pub nodes: Vec<NodeEvidence>,
     /// What speaks for the outline as a whole; None unless it came to rest.
     pub quality: Option<Evidence>,
-    /// How the motion ended: a curve that does not come to rest, or blows up, is an outcome and no
-    /// error.
+    /// How it ended: a curve that does not come to rest, or blows up, is an outcome and no error.
     pub outcome: Outcome,
-    /// Steps made.
+    /// Steps made, or rounds of the last stage of a search.
     pub steps: u64,
     /// What was chosen, and why.
     pub chosen: Choices,
@@ -50,12 +49,34 @@ pub struct NodeEvidence {
     pub offset: Option<f64>,
     /// Whether the image pulls the node back when it is moved along the normal.
     pub held: bool,
+    /// Standard error of the node along the normal, from the image's noise; None where no edge could be measured, and
+    /// of a motion. Pixels.
+    pub error: Option<f64>,
 }
 
-/// What was chosen for a fit, and why.
+/// What was chosen for a fit, and why: in plain words when it is displayed.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub struct Choices {
+pub enum Choices {
+    /// Of a search.
+    Search(Searched),
+    /// Of a motion.
+    Motion(Moved),
+}
+
+impl fmt::Display for Choices {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Search(search) => search.fmt(f),
+            Self::Motion(motion) => motion.fmt(f),
+        }
+    }
+}
+
+/// What was chosen for a motion, and why.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Moved {
     /// Spread of the image's levels from the 2nd to the 98th percentile.
     pub contrast: f64,
     /// Number of nodes.
@@ -92,7 +113,7 @@ pub enum StepReason {
     MayJump,
 }
 
-impl fmt::Display for Choices {
+impl fmt::Display for Moved {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,

@@ -9,7 +9,7 @@ use snake::{Body, Member, Outcome, Rest, Run, Simulation, Snake, Until};
 
 use crate::nodes::node_evidence;
 use crate::setup::{bordered, place, stepping, unfit, unmoved};
-use crate::{Choices, Contour, Evidence, Fit, FitError, Prepared};
+use crate::{Choices, Contour, Evidence, Fit, FitError, Moved, Prepared};
 
 /// The least distance of the found sides of a bar that is wide enough, in σ: those of a thin line
 /// are 2 σ apart however thin it is, those of a bar of 2 σ are 2.3 σ.
@@ -42,7 +42,7 @@ pub struct Session {
     closed: bool,
     run: Run,
     outcome: Option<Outcome>,
-    chosen: Choices,
+    chosen: Moved,
 }
 
 impl Session {
@@ -50,6 +50,7 @@ impl Session {
         let closed = start.closed;
         let x = place(prepared, start)?;
         let options = prepared.options();
+        let forces = prepared.forces()?;
         let topology = if closed {
             Topology::Closed
         } else {
@@ -67,11 +68,11 @@ impl Session {
         let begun = Simulation::of(snake, State::at_rest(x.clone()), stepping);
         let mut simulation = begun.map_err(unmoved)?;
         let run = simulation.start(&until(options.steps));
-        let chosen = Choices {
-            contrast: prepared.sight().true_contrast(),
+        let chosen = Moved {
+            contrast: forces.sight.true_contrast(),
             nodes: x.len(),
             spacing,
-            gain: prepared.field().map(|_| prepared.gain()),
+            gain: prepared.field().map(|_| forces.gain(options)),
             ..chosen
         };
         Ok(Self {
@@ -128,7 +129,7 @@ impl Session {
 
     /// What was chosen, and why.
     #[must_use]
-    pub const fn chosen(&self) -> &Choices {
+    pub const fn chosen(&self) -> &Moved {
         &self.chosen
     }
 
@@ -182,7 +183,7 @@ impl Session {
             quality,
             outcome,
             steps: step,
-            chosen: self.chosen,
+            chosen: Choices::Motion(self.chosen),
         }
     }
 }

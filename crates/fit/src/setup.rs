@@ -9,7 +9,7 @@ use snake::{Certificate, SimulationError, Snake, SnakeError, Stepping, Wall, Wal
 use crate::limits::MOST_NODES;
 use crate::options::Step;
 use crate::result::StepReason;
-use crate::{Choices, Contour, FitError, OptionKey, Prepared, Problem};
+use crate::{Contour, FitError, Moved, OptionKey, Prepared, Problem};
 
 /// The first step of a fit that chooses its steps; it is cut at once where it moves a node too far.
 /// T.
@@ -26,7 +26,7 @@ const MOST_CHOSEN_DT: f64 = 0.2;
 /// The nodes of a start, evenly along a spline through its points, in the image.
 pub(crate) fn place(prepared: &Prepared, start: &Contour) -> Result<Vec<DVec2>, FitError> {
     let clicks = start.clicks();
-    let (width, height) = prepared.sight().image().size();
+    let (width, height) = prepared.image().size();
     let most = DVec2::new(width as f64, height as f64) - 0.5;
     // written so that a NaN is outside too
     let inside = |p: &DVec2| p.cmpge(DVec2::splat(-0.5)).all() && p.cmple(most).all();
@@ -62,7 +62,7 @@ pub(crate) fn place(prepared: &Prepared, start: &Contour) -> Result<Vec<DVec2>, 
 
 /// The center of the last pixel.
 fn last_pixel(prepared: &Prepared) -> DVec2 {
-    let (width, height) = prepared.sight().image().size();
+    let (width, height) = prepared.image().size();
     DVec2::new((width - 1) as f64, (height - 1) as f64)
 }
 
@@ -85,11 +85,8 @@ pub(crate) fn bordered(mut world: World, prepared: &Prepared) -> Result<World, F
 }
 
 /// What moves the curve, and why so; the other choices are filled in by the caller.
-pub(crate) fn stepping(
-    prepared: &Prepared,
-    snake: &Snake,
-) -> Result<(Stepping, Choices), FitError> {
-    let choices = |scheme, step, why| Choices {
+pub(crate) fn stepping(prepared: &Prepared, snake: &Snake) -> Result<(Stepping, Moved), FitError> {
+    let choices = |scheme, step, why| Moved {
         contrast: 0.0,
         nodes: 0,
         spacing: 0.0,
@@ -110,7 +107,11 @@ pub(crate) fn stepping(
     // the usual force is smooth; forces of regions jump, which a scheme that extrapolates them does
     // not bear
     let (scheme, limit) = if prepared.field().is_some() {
-        let limit = Certificate::limit_for_slope(snake, Scheme::Sbdf2, prepared.steepest());
+        let limit = Certificate::limit_for_slope(
+            snake,
+            Scheme::Sbdf2,
+            prepared.steepest(prepared.forces()?),
+        );
         (Scheme::Sbdf2, limit)
     } else {
         let limit = Certificate::limit(snake, Scheme::Leapfrog);

@@ -31,7 +31,7 @@ fn depths_of_one_picture_give_one_outline_lazily_and_whole() {
         color,
         Image::grey(levels),
     ] {
-        for options in [whole(), Options::default()] {
+        for options in [whole(), Options::motion()] {
             let found = fit(&image, &start, &options).unwrap();
             // a lazy field is within 1e-6 of gain times level: 1e-4 of the pull, which turns within
             // 3 pixels

@@ -29,7 +29,7 @@ fn bits(fit: &Fit) -> Vec<[u64; 2]> {
 #[test]
 fn a_session_in_any_parts_is_the_fit_to_the_last_bit() {
     for lazy in [false, true] {
-        let options = if lazy { Options::default() } else { whole() };
+        let options = if lazy { Options::motion() } else { whole() };
         let prepared = prepared(&options);
         let start = &starts()[7];
         let whole = prepared.fit(start).unwrap();
@@ -46,7 +46,7 @@ fn a_session_in_any_parts_is_the_fit_to_the_last_bit() {
 
 #[test]
 fn threads_share_one_image_and_find_the_same_bytes() {
-    let (alone, shared) = (prepared(&Options::default()), prepared(&Options::default()));
+    let (alone, shared) = (prepared(&Options::motion()), prepared(&Options::motion()));
     let starts = starts();
     let expected: Vec<Fit> = starts.iter().map(|s| alone.fit(s).unwrap()).collect();
     let found: Vec<Fit> = std::thread::scope(|scope| {
@@ -62,7 +62,7 @@ fn threads_share_one_image_and_find_the_same_bytes() {
 
 #[test]
 fn many_fits_come_in_order_and_do_not_depend_on_the_number_of_threads() {
-    let prepared = prepared(&Options::default());
+    let prepared = prepared(&Options::motion());
     let mut starts = starts();
     // one is refused
     starts[4] = Contour::circle(DVec2::splat(-9.0), 3.0);

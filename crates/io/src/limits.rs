@@ -24,6 +24,18 @@ pub(crate) const MOST_STREAM: u64 = 1 << 30;
 /// Bytes of a contour file, enough for the most points at 17 digits with columns to spare.
 pub(crate) const MOST_CONTOUR_BYTES: u64 = 256 << 20;
 
+/// Points that the outlines of one file may have together, but for tables: 256 MiB of them.
+pub(crate) const MOST_POINTS: usize = 1 << 24;
+
+/// Outlines and rings of outlines in one file.
+pub(crate) const MOST_SHAPES: usize = 1 << 21;
+
+/// Pixels that the masks of one file may have together.
+pub(crate) const MOST_TRACED: u64 = 1 << 29;
+
+/// Values of a JSON, numbers in lists of numbers not counted: an outline takes ten to twenty.
+pub(crate) const MOST_VALUES: usize = 1 << 24;
+
 /// Refuse what there is no memory for, before any is filled: so many bytes are asked for and given
 /// back.
 ///

@@ -18,34 +18,70 @@ pub fn called(path: &Path) -> PathBuf {
     }
 }
 
+/// What some programs write before any text.
+const MARK: char = '\u{feff}';
+
 /// The text of a file, or of standard input for `-`; `wanted` says what is needed.
 ///
 /// # Errors
 ///
 /// A file that cannot be read, that holds more than `most` bytes, or that is not text in UTF-8.
 pub fn read_text(path: &Path, wanted: &str, most: u64) -> Result<String, IoError> {
+    let bytes = read_bytes(path, wanted, |_| most)?;
+    let mut text = String::from_utf8(bytes).map_err(|error| {
+        let what = foreign(error.as_bytes());
+        IoError::file(&called(path), format!("{what}; {wanted} is needed"))
+    })?;
+    if text.starts_with(MARK) {
+        text.drain(..MARK.len_utf8());
+    }
+    Ok(text)
+}
+
+/// The bytes of a file, or of standard input for `-`, of which there may be so many as `most` says of the first 64.
+///
+/// # Errors
+///
+/// A file that cannot be read or that holds more.
+pub(crate) fn read_bytes(
+    path: &Path,
+    wanted: &str,
+    most: impl Fn(&[u8]) -> u64,
+) -> Result<Vec<u8>, IoError> {
     let refuse = |what: String| IoError::file(&called(path), format!("{what}; {wanted} is needed"));
     let broken = |error: std::io::Error| refuse(format!("cannot be read: {error}"));
     let mut bytes = Vec::new();
-    let reader: Box<dyn Read> = if path.as_os_str() == "-" {
+    let mut reader: Box<dyn Read> = if path.as_os_str() == "-" {
         Box::new(std::io::stdin().lock())
     } else {
         Box::new(std::fs::File::open(path).map_err(broken)?)
     };
+    reader
+        .by_ref()
+        .take(64)
+        .read_to_end(&mut bytes)
+        .map_err(broken)?;
+    let most = most(&bytes);
     // one byte more than allowed tells a file of just that size from a longer or endless one
     reader
-        .take(most + 1)
+        .take((most + 1).saturating_sub(bytes.len() as u64))
         .read_to_end(&mut bytes)
         .map_err(broken)?;
     if bytes.len() as u64 > most {
         return Err(refuse(format!("holds more than {} MiB", most >> 20)));
     }
-    let mut text = String::from_utf8(bytes).map_err(|error| refuse(foreign(error.as_bytes())))?;
-    // what some programs write before any text
-    if text.starts_with('\u{feff}') {
-        text.drain(..'\u{feff}'.len_utf8());
-    }
-    Ok(text)
+    Ok(bytes)
+}
+
+/// The text that bytes are, without what some programs write before any.
+///
+/// # Errors
+///
+/// What is wrong with them.
+pub(crate) fn text_of<'a>(bytes: &'a [u8], wanted: &str) -> Result<&'a str, String> {
+    let text = std::str::from_utf8(bytes)
+        .map_err(|_| format!("{}; {wanted} is needed", foreign(bytes)))?;
+    Ok(text.strip_prefix(MARK).unwrap_or(text))
 }
 
 /// What to say of bytes that are no UTF-8.

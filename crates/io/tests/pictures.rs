@@ -176,13 +176,21 @@ fn grey_tiffs_of_floats_are_read_as_well() {
     let off64 = off("floats of 64 bits", bytes.get_ref(), level);
     assert!(off64 <= 1e-12, "off by {off64}");
     let mut bytes = Cursor::new(Vec::new());
-    let whole: Vec<u32> = single.iter().map(|v| (v * 1e9) as u32).collect();
+    let whole: Vec<u32> = single.iter().map(|v| (v * 4e9) as u32).collect();
     TiffEncoder::new(&mut bytes)
         .unwrap()
         .write_image::<colortype::Gray32>(WIDTH, HEIGHT, &whole)
         .unwrap();
+    let level = |x, y| f64::from(whole[(y * WIDTH + x) as usize]) / 16_843_009.0;
+    let off32 = off("whole numbers of 32 bits", bytes.get_ref(), level);
+    assert!(off32 <= 1e-12, "off by {off32}");
+    let mut bytes = Cursor::new(Vec::new());
+    TiffEncoder::new(&mut bytes)
+        .unwrap()
+        .write_image::<colortype::Gray64>(WIDTH, HEIGHT, &vec![1; single.len()])
+        .unwrap();
     let refused = Picture::decode(bytes.get_ref()).unwrap_err();
-    assert!(refused.contains("whole numbers of 32 bits"), "{refused}");
+    assert!(refused.contains("whole numbers of 64 bits"), "{refused}");
 }
 
 #[test]

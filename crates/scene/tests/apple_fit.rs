@@ -26,7 +26,7 @@ fn explicit_rest(prepared: &Prepared, start: &[DVec2]) -> State {
     let body = body.with_material(material).with_damping(options.damping);
     let field = prepared.field().unwrap().clone();
     let mut world = World::default().with_image(field, Sampling::Bilinear);
-    let (width, height) = prepared.sight().image().size();
+    let (width, height) = prepared.image().size();
     let last = DVec2::new(width as f64 - 1.0, height as f64 - 1.0);
     let law = WallLaw::Impact {
         restitution: 0.0,
@@ -70,7 +70,7 @@ fn the_default_fit_of_the_apple_rests_where_small_steps_rest_in_hundreds_of_its_
     let made = |computing| {
         let options = Options {
             computing,
-            ..Options::default()
+            ..Options::motion()
         };
         Prepared::of(&image, &options).unwrap()
     };

@@ -61,7 +61,7 @@ fn usual(computing: Computing, sigma: f64) -> Options {
     Options {
         computing,
         sigma,
-        ..Options::default()
+        ..Options::motion()
     }
 }
 
@@ -149,7 +149,7 @@ fn lazy_is_refused_by_name_where_it_will_not_do_and_left_alone_otherwise() {
     };
     let prepared = prepared(&picture, &by_kind).unwrap();
     let kind = ImageForceKind::Edge(Edge::default());
-    let made = prepared.sight().forces(&kind).unwrap();
+    let made = prepared.sight().unwrap().forces(&kind).unwrap();
     let field = made[0].downcast::<ImageForce>().unwrap();
     assert!(field.field().tiles_computed().is_some());
 }
@@ -214,12 +214,15 @@ fn from_coarse_to_fine_a_fit_arrives_from_where_one_scale_does_not() {
             forces: forces.collect(),
             tension: 5.0,
             rigidity: 20.0,
-            ..Options::default()
+            ..Options::motion()
         };
         let found = prepared(&picture, &options).unwrap().fit(&far).unwrap();
         let off = |p: &DVec2| (p.distance(DVec2::new(150.0, 100.0)) - 40.0).abs();
         let nodes = found.contour.points.iter();
-        let time = found.steps as f64 * found.chosen.step;
+        let fit::Choices::Motion(moved) = &found.chosen else {
+            panic!("a motion was asked for")
+        };
+        let time = found.steps as f64 * moved.step;
         (nodes.map(off).fold(0.0, f64::max), time)
     };
     let ((one, _), (all, t)) = (end(&[]), end(&["coarse-to-fine"]));

@@ -14,7 +14,7 @@ mod sizes;
 mod words;
 
 /// Own packages, without the prefix `snakes-`, and their floor: an arrow may only point to a lower one.
-const FLOORS: [(&str, u32); 16] = [
+const FLOORS: [(&str, u32); 20] = [
     ("lanes", 0),
     ("banded", 0),
     ("field", 1),
@@ -22,24 +22,39 @@ const FLOORS: [(&str, u32); 16] = [
     ("outline", 1),
     ("integrator", 1),
     ("snake", 2),
-    ("io", 2), // files, and the fields of a picture
-    ("fit", 3),
-    ("snakes", 4), // what users see of all below
-    ("tracker", 4),
-    ("scene", 5),
-    ("cli", 6),
-    ("sandbox", 6),
-    ("benches", 7), // it draws with the kit of the sandbox
-    ("py", 6),
+    ("score", 2),
+    ("search", 2),
+    ("io", 2),       // files, and the fields of a picture
+    ("subpixel", 3), // the last stage of a search
+    ("instances", 4),
+    ("fit", 5),
+    ("snakes", 6), // what users see of all below
+    ("tracker", 6),
+    ("scene", 7),
+    ("cli", 8),
+    ("sandbox", 8),
+    ("benches", 9), // it draws with the kit of the sandbox
+    ("py", 8),
 ];
 
 /// Outside crates and who may open the door to them. `*` is everybody, `test` everybody's tests.
-const DOORS: [(&str, &[&str]); 25] = [
+const DOORS: [(&str, &[&str]); 29] = [
     ("glam", &["*"]),
     ("thiserror", &["*"]),
     (
         "ndarray",
-        &["field", "fit", "io", "scene", "sandbox", "benches"],
+        &[
+            "field",
+            "fit",
+            "instances",
+            "io",
+            "scene",
+            "score",
+            "search",
+            "cli",
+            "sandbox",
+            "benches",
+        ],
     ),
     ("robust", &["outline"]),
     ("pulp", &["lanes", "banded", "field"]),
@@ -50,6 +65,9 @@ const DOORS: [(&str, &[&str]); 25] = [
     ("toml", &["scene", "sandbox: test"]),                          // this file reads manifests
     ("image", &["io", "scene: test"]),
     ("tiff", &["io"]),
+    ("roxmltree", &["io"]),
+    ("svgtypes", &["io"]),
+    ("zip", &["io"]),
     ("strsim", &["scene"]),
     ("tempfile", &["io", "test"]),
     ("clap", &["cli", "sandbox"]),
@@ -57,6 +75,7 @@ const DOORS: [(&str, &[&str]); 25] = [
     ("clap_mangen", &["cli"]),
     ("ctrlc", &["cli"]),
     ("indicatif", &["cli", "sandbox"]),
+    ("rustix", &["cli"]),
     ("plotters", &["sandbox"]),
     ("gif", &["sandbox"]),
     ("criterion", &["benches"]),

@@ -46,8 +46,8 @@ const EXPORTS: usize = 20;
 const EXPORTS_TODAY: [(&str, usize); 10] = [
     ("banded", 21),
     ("elastic", 43),
-    ("field", 82),
-    ("fit", 24),
+    ("field", 83),
+    ("fit", 29),
     ("integrator", 24),
     ("outline", 38),
     ("scene", 27),

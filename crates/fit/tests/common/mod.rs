@@ -35,7 +35,7 @@ pub(crate) fn disc(center: DVec2, radius: f64) -> field::Grid {
 pub(crate) fn whole() -> Options {
     Options {
         computing: Computing::Whole,
-        ..Options::default()
+        ..Options::motion()
     }
 }
 

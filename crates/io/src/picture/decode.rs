@@ -13,27 +13,27 @@ use ndarray::{Array2, Axis};
 use super::pixels::{Pixels, luma};
 use super::source::{Found, after, check_size, cut};
 use super::tiff_file::{self, Grey};
-use super::{Invalid, Picture, jpeg, png, pnm};
+use super::{Invalid, Picture, PictureReading, jpeg, pfm, png, pnm, webp};
 use crate::limits::{MOST_PIXELS, MOST_STREAM, MOST_WHOLE};
 use crate::text::clip_to;
 
 /// What to say instead of every other kind of file.
-const WANTED: &str = "a PNG, JPEG, TIFF, PGM or PPM picture";
+const WANTED: &str = "a PNG, JPEG, TIFF, PGM, PPM, PFM or WebP picture";
 
 /// Bytes that tell what a file is.
 const HEAD: u64 = 64;
 
 /// Read a picture file, or standard input for `-`. Its head is looked at first, and no more is read than the picture
 /// takes, so that an endless file is not read to its end.
-pub(super) fn load(path: &Path, invalid: Invalid) -> Result<Picture, String> {
+pub(super) fn load(path: &Path, rule: &PictureReading) -> Result<Picture, String> {
     let unread = |e: std::io::Error| format!("cannot be read: {e}; {WANTED} is needed");
     if path.as_os_str() == "-" {
-        return stream(std::io::stdin().lock(), invalid);
+        return stream(std::io::stdin().lock(), rule);
     }
     let mut file = File::open(path).map_err(unread)?;
     let data = file.metadata().map_err(unread)?;
     if !data.is_file() {
-        return stream(file, invalid);
+        return stream(file, rule);
     }
     let mut head = Vec::new();
     let mut first = (&mut file).take(HEAD);
@@ -41,22 +41,22 @@ pub(super) fn load(path: &Path, invalid: Invalid) -> Result<Picture, String> {
     file.seek(SeekFrom::Start(0)).map_err(unread)?;
     let known = format(&head)?;
     let mut reader = BufReader::new(file);
-    if known == ImageFormat::Tiff {
-        return tiff(&mut reader, data.len(), MOST_PIXELS, invalid);
+    if known == Known::Tiff {
+        return tiff(&mut reader, data.len(), MOST_PIXELS, rule);
     }
-    in_order(known, &mut reader, Some(data.len()), MOST_PIXELS, invalid)
+    in_order(known, &mut reader, Some(data.len()), MOST_PIXELS, rule)
 }
 
 /// Read a picture from what can be read only once.
-fn stream(mut input: impl Read, invalid: Invalid) -> Result<Picture, String> {
+fn stream(mut input: impl Read, rule: &PictureReading) -> Result<Picture, String> {
     let unread = |e: std::io::Error| format!("cannot be read: {e}; {WANTED} is needed");
     let mut head = Vec::new();
     let mut first = input.by_ref().take(HEAD);
     first.read_to_end(&mut head).map_err(unread)?;
     let known = format(&head)?;
     let mut whole = BufReader::new(Cursor::new(head).chain(input));
-    if known != ImageFormat::Tiff {
-        return in_order(known, &mut whole, None, MOST_PIXELS, invalid);
+    if known != Known::Tiff {
+        return in_order(known, &mut whole, None, MOST_PIXELS, rule);
     }
     // a TIFF is read in any order
     let mut bytes = Vec::new();
@@ -68,22 +68,38 @@ fn stream(mut input: impl Read, invalid: Invalid) -> Result<Picture, String> {
             MOST_STREAM >> 20
         ));
     }
-    decode(&bytes, MOST_PIXELS, invalid)
+    decode(&bytes, MOST_PIXELS, rule)
+}
+
+/// Kinds of pictures that are read.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Known {
+    Png,
+    Jpeg,
+    Tiff,
+    Webp,
+    Pnm,
+    Pfm,
 }
 
 /// What a file is by its first bytes.
-fn format(head: &[u8]) -> Result<ImageFormat, String> {
+fn format(head: &[u8]) -> Result<Known, String> {
     if head.is_empty() {
         return Err(format!("the file is empty; {WANTED} is needed"));
     }
     // with offsets of 64 bits
     if head.starts_with(b"II+\0") || head.starts_with(b"MM\0+") {
-        return Ok(ImageFormat::Tiff);
+        return Ok(Known::Tiff);
+    }
+    if pfm::is_one(head) {
+        return Ok(Known::Pfm);
     }
     match image::guess_format(head) {
-        Ok(
-            known @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::Tiff | ImageFormat::Pnm),
-        ) => Ok(known),
+        Ok(ImageFormat::Png) => Ok(Known::Png),
+        Ok(ImageFormat::Jpeg) => Ok(Known::Jpeg),
+        Ok(ImageFormat::Tiff) => Ok(Known::Tiff),
+        Ok(ImageFormat::WebP) => Ok(Known::Webp),
+        Ok(ImageFormat::Pnm) => Ok(Known::Pnm),
         Ok(other) => Err(format!(
             "a picture of the format {}, which this program does not read; {WANTED} is needed",
             other.extensions_str().first().unwrap_or(&"unknown")
@@ -95,41 +111,51 @@ fn format(head: &[u8]) -> Result<ImageFormat, String> {
 }
 
 /// A picture of at most `most` pixels from the bytes of a file.
-pub(super) fn decode(bytes: &[u8], most: u64, invalid: Invalid) -> Result<Picture, String> {
+pub(super) fn decode(bytes: &[u8], most: u64, rule: &PictureReading) -> Result<Picture, String> {
     let known = format(bytes)?;
     let length = bytes.len() as u64;
     let mut reader = Cursor::new(bytes);
-    if known == ImageFormat::Tiff {
-        return tiff(&mut reader, length, most, invalid);
+    if known == Known::Tiff {
+        return tiff(&mut reader, length, most, rule);
     }
-    in_order(known, &mut reader, Some(length), most, invalid)
+    in_order(known, &mut reader, Some(length), most, rule)
 }
 
 /// A picture of a format that is read from its beginning to its end.
 fn in_order(
-    known: ImageFormat,
+    known: Known,
     input: &mut dyn BufRead,
     length: Option<u64>,
     most: u64,
-    invalid: Invalid,
+    rule: &PictureReading,
 ) -> Result<Picture, String> {
-    let found = match known {
-        ImageFormat::Jpeg => jpeg::gather(input, most)?,
-        ImageFormat::Png => png::gather(input, most)?,
-        _ => {
+    if rule.page.is_some_and(|page| page != 1) {
+        return Err("the picture file has one page; no other can be asked for".to_owned());
+    }
+    let (mut found, format) = match known {
+        Known::Jpeg => (jpeg::gather(input, most)?, ImageFormat::Jpeg),
+        Known::Png => (png::gather(input, most)?, ImageFormat::Png),
+        Known::Webp => (webp::gather(input)?, ImageFormat::WebP),
+        Known::Pfm => return of_channel(Picture::of_pixels(pfm::read(input, length, most)?), rule),
+        Known::Pnm | Known::Tiff => {
             let head = pnm::head(input, length, most)?;
             let data = Cursor::new(head.bytes).chain(input.take(head.data));
             let decoder = image::codecs::pnm::PnmDecoder::new(data).map_err(broken)?;
-            return image(decoder, Found::new(Vec::new()), most, invalid);
+            return image(decoder, Found::new(Vec::new()), most, rule);
         }
     };
-    let mut found = found;
     // handed on, so that it is not kept twice
     let bytes = std::mem::take(&mut found.bytes);
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), known);
+    let many = bytes.len() as u64;
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(Limits::no_limits());
-    let decoder = reader.into_decoder().map_err(broken)?;
-    image(decoder, found, most, invalid)
+    let mut decoder = reader.into_decoder().map_err(broken)?;
+    if known == Known::Webp {
+        let (width, height) = decoder.dimensions();
+        webp::enough(many, u64::from(width), u64::from(height))?;
+        found.orientation = decoder.orientation().ok();
+    }
+    image(decoder, found, most, rule)
 }
 
 /// A picture from a decoder that has read its head.
@@ -137,12 +163,12 @@ fn image(
     decoder: impl ImageDecoder,
     found: Found,
     most: u64,
-    invalid: Invalid,
+    rule: &PictureReading,
 ) -> Result<Picture, String> {
     let (width, height) = decoder.dimensions();
     let (width, height) = (u64::from(width), u64::from(height));
     check_size(width, height, most)?;
-    let turned = found.orientation.unwrap_or(Orientation::NoTransforms);
+    let turned = turned(found.orientation, rule);
     let color = decoder.color_type();
     if color.bytes_per_pixel() > 4 {
         check_size(width, height, most.min(MOST_WHOLE))?;
@@ -153,10 +179,35 @@ fn image(
     room(bytes.saturating_mul(copies).saturating_add(found.working))?;
     let mut image = DynamicImage::from_decoder(decoder).map_err(broken)?;
     image.apply_orientation(turned);
-    let mut picture = from_image(image, invalid)?;
-    picture.notes = found.notes;
+    let mut picture = from_image(image, rule)?;
+    picture.notes.splice(..0, found.notes);
     picture.notes.extend(note(turned));
-    Ok(picture)
+    picture.pixel_size = found.pixel_size.map(|size| size.turned(turned));
+    of_channel(picture, rule)
+}
+
+/// How to turn a picture, if it is to be.
+fn turned(orientation: Option<Orientation>, rule: &PictureReading) -> Orientation {
+    orientation
+        .filter(|_| !rule.as_stored)
+        .unwrap_or(Orientation::NoTransforms)
+}
+
+/// The channel of a picture in color that is asked for.
+fn of_channel(mut picture: Picture, rule: &PictureReading) -> Result<Picture, String> {
+    let Some(wanted) = &rule.channel else {
+        return Ok(picture);
+    };
+    let names = picture.pixels.channel_names();
+    let at = tiff_file::channel(wanted, names)?;
+    picture.pixels = picture.pixels.one(at).unwrap_or(picture.pixels);
+    let of = Picture::of_pixels(picture.pixels);
+    Ok(Picture {
+        valid: picture.valid,
+        notes: picture.notes,
+        pixel_size: picture.pixel_size,
+        ..of
+    })
 }
 
 /// A picture from a TIFF file, which is read in any order.
@@ -164,10 +215,10 @@ fn tiff<R: BufRead + Seek>(
     reader: &mut R,
     length: u64,
     most: u64,
-    invalid: Invalid,
+    rule: &PictureReading,
 ) -> Result<Picture, String> {
-    let head = tiff_file::read(&mut *reader, length, most)?;
-    let turned = head.orientation.unwrap_or(Orientation::NoTransforms);
+    let head = tiff_file::read(&mut *reader, length, most, rule)?;
+    let turned = turned(head.orientation, rule);
     let Some(grey) = head.grey else {
         reader.seek(SeekFrom::Start(0)).map_err(|e| after(&e))?;
         let mut decoder = image::codecs::tiff::TiffDecoder::new(reader).map_err(broken)?;
@@ -176,19 +227,26 @@ fn tiff<R: BufRead + Seek>(
         decoder.set_limits(limits).map_err(broken)?;
         let mut found = Found::new(Vec::new());
         (found.orientation, found.notes) = (Some(turned), head.notes);
-        return image(decoder, found, most, invalid);
+        found.pixel_size = head.pixel_size;
+        return image(decoder, found, most, rule);
     };
     let mut picture = match grey {
         Grey::Pixels(pixels) => Picture::of_pixels(pixels.turned(turned)),
+        Grey::Masked(pixels, valid) => {
+            let mut picture = Picture::of_pixels(pixels.turned(turned));
+            picture.mask_alpha(upright(valid, turned));
+            picture
+        }
         Grey::Levels(levels) => {
-            let (levels, valid) = grid(upright(levels, turned), invalid)?;
+            let (levels, valid) = grid(upright(levels, turned), rule)?;
             let mut picture = Picture::from_levels(levels);
             (picture.valid, picture.deep) = (valid, true);
             picture
         }
     };
-    picture.notes = head.notes;
+    picture.notes.splice(..0, head.notes);
     picture.notes.extend(note(turned));
+    picture.pixel_size = head.pixel_size.map(|size| size.turned(turned));
     Ok(picture)
 }
 
@@ -232,10 +290,10 @@ pub(super) fn room(bytes: u64) -> Result<(), String> {
 }
 
 /// Grey levels, all of them finite, and which of them count.
-fn grid(mut levels: Grid, invalid: Invalid) -> Result<(Grid, Option<Array2<bool>>), String> {
+fn grid(mut levels: Grid, rule: &PictureReading) -> Result<(Grid, Option<Array2<bool>>), String> {
     let mut valid = None;
     if let Some(((y, x), level)) = levels.indexed_iter().find(|(_, v)| !v.is_finite()) {
-        if invalid == Invalid::Refuse {
+        if rule.invalid == Invalid::Refuse {
             return Err(format!(
                 "pixel ({x}, {y}) is {level}; all must be finite numbers (in a scene, invalid = \"mask\" leaves such \
                  pixels out)"
@@ -259,10 +317,11 @@ pub(super) fn broken(error: impl std::fmt::Display) -> String {
     format!("the picture cannot be decoded: {error}; a whole one of a usual kind is needed")
 }
 
-fn from_image(image: DynamicImage, invalid: Invalid) -> Result<Picture, String> {
+fn from_image(image: DynamicImage, rule: &PictureReading) -> Result<Picture, String> {
     let dim = (image.height() as usize, image.width() as usize);
     let bytes = |list| Array2::from_shape_vec(dim, list).map_err(broken);
     let words = |list| Array2::from_shape_vec(dim, list).map_err(broken);
+    let seen = seen(&image, dim)?;
     let pixels = match image {
         DynamicImage::ImageLuma8(i) => Pixels::Bytes(bytes(i.into_raw())?.into_shared()),
         DynamicImage::ImageLumaA8(i) => {
@@ -280,7 +339,7 @@ fn from_image(image: DynamicImage, invalid: Invalid) -> Result<Picture, String> 
             if colors.iter().all(|v| v.is_finite()) {
                 Pixels::FloatColors(Arc::new(colors))
             } else {
-                return masked_colors(colors, dim, invalid);
+                return masked_colors(colors, dim, rule);
             }
         }
         other => {
@@ -293,20 +352,37 @@ fn from_image(image: DynamicImage, invalid: Invalid) -> Result<Picture, String> 
             }
         }
     };
-    Ok(Picture::of_pixels(pixels))
+    let mut picture = Picture::of_pixels(pixels);
+    if let Some(seen) = seen {
+        picture.mask_alpha(seen);
+    }
+    Ok(picture)
+}
+
+/// Which pixels are seen at all; None if nothing is said of it.
+fn seen(image: &DynamicImage, dim: (usize, usize)) -> Result<Option<Array2<bool>>, String> {
+    let list: Vec<bool> = match image {
+        DynamicImage::ImageLumaA8(i) => i.pixels().map(|p| p.0[1] > 0).collect(),
+        DynamicImage::ImageLumaA16(i) => i.pixels().map(|p| p.0[1] > 0).collect(),
+        DynamicImage::ImageRgba8(i) => i.pixels().map(|p| p.0[3] > 0).collect(),
+        DynamicImage::ImageRgba16(i) => i.pixels().map(|p| p.0[3] > 0).collect(),
+        DynamicImage::ImageRgba32F(i) => i.pixels().map(|p| p.0[3] > 0.0).collect(),
+        _ => return Ok(None),
+    };
+    Array2::from_shape_vec(dim, list).map(Some).map_err(broken)
 }
 
 /// Colors in floats of which some are no numbers: those pixels do not count.
 fn masked_colors(
     mut colors: image::Rgb32FImage,
     dim: (usize, usize),
-    invalid: Invalid,
+    rule: &PictureReading,
 ) -> Result<Picture, String> {
     let levels = colors
         .pixels()
         .map(|p| luma(p.0.map(|v| f64::from(v) * 255.0)));
     let levels = Grid::from_shape_vec(dim, levels.collect()).map_err(broken)?;
-    let (levels, valid) = grid(levels, invalid)?;
+    let (levels, valid) = grid(levels, rule)?;
     colors
         .iter_mut()
         .filter(|v| !v.is_finite())

@@ -18,6 +18,10 @@ impl Pixels for Picture {
         self.level_at(x, y)
     }
 
+    fn color(&self, x: usize, y: usize) -> [f64; 3] {
+        self.color_at(x, y)
+    }
+
     fn channels(&self) -> Vec<Grid> {
         Self::channels(self)
     }

@@ -1,22 +1,30 @@
 //! Pictures: read from files, or made of levels.
 //!
 //! Inside, a picture is grey *levels* from 0 (black) to 255 (white), whatever the file held: eight
-//! bits as they are, sixteen divided by 257 (with a sign or without), floats (0 … 1) times 255. So
+//! bits as they are, sixteen divided by 257 (with a sign or without),
+//! thirty-two by 16843009, floats (0 … 1) times 255. So
 //! a force has the same size
 //! for the same picture at any depth, and the report's parameters mean what they meant. Colour
 //! becomes grey by `0.299 R + 0.587 G + 0.114 B`, not rounded; the colors are kept for forces that ask
 //! for them. A picture that says how it is to be looked at (EXIF, TIFF tag 274) is turned upright.
-//! Transparency is ignored. Some pixels may not count: those a mask says, those that are no
-//! numbers.
+//! Some pixels may not count: those a mask says, those that are no numbers, those that are
+//! transparent altogether (alpha 0), but where all are. Any other alpha changes nothing.
 
 mod decode;
 mod jpeg;
 mod memory;
+mod numbers;
+mod pfm;
+mod pixel_size;
 mod pixels;
 mod png;
 mod pnm;
 mod source;
+mod tiff_bands;
 mod tiff_file;
+mod tiff_palette;
+mod tiff_size;
+mod webp;
 
 use std::path::Path;
 use std::sync::OnceLock;
@@ -28,6 +36,9 @@ use pixels::Pixels;
 
 use crate::IoError;
 use crate::limits::MOST_PIXELS;
+
+pub(crate) use numbers::{Numbers, numbers_of};
+pub use pixel_size::PixelSize;
 
 /// A picture: grey levels to compute with, and colours to look at.
 ///
@@ -47,6 +58,23 @@ pub struct Picture {
     valid: Option<Array2<bool>>,
     /// What people should know of it.
     notes: Vec<String>,
+    /// How large a pixel is, if the file says so.
+    pixel_size: Option<PixelSize>,
+}
+
+/// How to read a picture. The default is its first page, upright, in all its colors.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct PictureReading {
+    /// What becomes of pixels that are no finite numbers.
+    pub invalid: Invalid,
+    /// The page of a file of several, from 1.
+    pub page: Option<usize>,
+    /// The channel that is read alone: by its number from 1; as `red`, `green`, `blue` or `alpha`;
+    /// or by the name that an OME-TIFF gives it. In a TIFF whose channels are pages (`ImageJ`, OME),
+    /// pages are those of one channel.
+    pub channel: Option<String>,
+    /// Whether the picture is left as it is stored, however it says it is to be looked at.
+    pub as_stored: bool,
 }
 
 /// What becomes of pixels that are no finite numbers.
@@ -60,8 +88,8 @@ pub enum Invalid {
 }
 
 impl Picture {
-    /// Read a picture file, or standard input for `-`: PNG, JPEG, TIFF, PGM/PPM; grey or colour; 8
-    /// bit, 16 bit or float.
+    /// Read a picture file, or standard input for `-`: PNG, JPEG, TIFF, WebP, PGM/PPM, PFM;
+    /// grey or colour; of 8, 16 or 32 bits or float.
     /// No more is read than the picture takes.
     ///
     /// # Errors
@@ -78,8 +106,30 @@ impl Picture {
     ///
     /// As [`Picture::load`]; not one pixel that is a number.
     pub fn load_with(path: &Path, invalid: Invalid) -> Result<Self, IoError> {
-        decode::load(path, invalid)
+        let rule = PictureReading {
+            invalid,
+            ..PictureReading::default()
+        };
+        Self::load_as(path, &rule)
+    }
+
+    /// [`Picture::load`] with a word on what of the file is read and how.
+    ///
+    /// # Errors
+    ///
+    /// As [`Picture::load`]; a page or a channel that is not there.
+    pub fn load_as(path: &Path, rule: &PictureReading) -> Result<Self, IoError> {
+        decode::load(path, rule)
             .map_err(|message| IoError::file(&crate::read::called(path), message))
+    }
+
+    /// [`Picture::decode`] with a word on what of the file is read and how.
+    ///
+    /// # Errors
+    ///
+    /// As [`Picture::decode`]; a page or a channel that is not there.
+    pub fn decode_as(bytes: &[u8], rule: &PictureReading) -> Result<Self, String> {
+        decode::decode(bytes, MOST_PIXELS, rule)
     }
 
     /// A picture from the bytes of a file.
@@ -97,7 +147,7 @@ impl Picture {
     ///
     /// As [`Picture::decode`]; more than `most` pixels.
     pub fn decode_small(bytes: &[u8], most: u64) -> Result<Self, String> {
-        decode::decode(bytes, most, Invalid::Refuse)
+        decode::decode(bytes, most, &PictureReading::default())
     }
 
     /// A picture of grey levels; shown rounded and clamped to 0 … 255.
@@ -129,6 +179,7 @@ impl Picture {
             deep: false,
             valid: None,
             notes: Vec::new(),
+            pixel_size: None,
         }
     }
 
@@ -145,6 +196,13 @@ impl Picture {
     pub fn level_at(&self, x: usize, y: usize) -> f64 {
         let kept = self.pixels.level_at(x, y);
         kept.unwrap_or_else(|| self.levels()[[y, x]])
+    }
+
+    /// Red, green and blue of one pixel, 0 … 255; of a grey picture its level three times.
+    #[must_use]
+    pub fn color_at(&self, x: usize, y: usize) -> [f64; 3] {
+        let kept = self.pixels.color_at(x, y);
+        kept.unwrap_or_else(|| [self.level_at(x, y); 3])
     }
 
     /// The picture as a person sees it: eight bits as they are; deeper ones from their 2nd to their 98th percentile.
@@ -302,6 +360,26 @@ impl Picture {
                 let both = self.levels().iter().zip(valid);
                 both.filter(|(_, ok)| **ok).map(|(&v, _)| v)
             }),
+        }
+    }
+
+    /// How large a pixel is, if the file says so: by the resolution of a TIFF or a PNG, by the unit that
+    /// `ImageJ` notes, or by OME.
+    #[must_use]
+    pub const fn pixel_size(&self) -> Option<&PixelSize> {
+        self.pixel_size.as_ref()
+    }
+
+    /// Leave out pixels that are transparent altogether, unless all are.
+    fn mask_alpha(&mut self, seen: Array2<bool>) {
+        let count = seen.iter().filter(|&&seen| !seen).count();
+        if count == seen.len() {
+            self.notes
+                .push("all pixels are transparent: transparency is ignored".to_owned());
+        } else if count > 0 {
+            self.notes
+                .push(format!("{count} pixels are transparent: they do not count"));
+            self.valid = Some(seen);
         }
     }
 

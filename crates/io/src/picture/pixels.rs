@@ -6,7 +6,9 @@ use std::sync::Arc;
 
 use field::{EdgeForce, FieldError, ForceField, Grid, Recipe, lazy_force, level_limits};
 use image::metadata::Orientation;
-use image::{ImageBuffer, Luma, Rgb, Rgb32FImage, RgbImage, buffer::ConvertBuffer as _};
+use image::{
+    DynamicImage, ImageBuffer, Luma, Rgb, Rgb32FImage, RgbImage, buffer::ConvertBuffer as _,
+};
 use ndarray::{ArcArray2, Array2};
 
 use super::as_u32;
@@ -14,6 +16,9 @@ use super::decode::{is_grey, upright};
 
 /// Grey levels from 0 to 255 in sixteen bits: as far as one goes.
 const WORDS_A_LEVEL: f64 = 257.0;
+
+/// Grey levels from 0 to 255 in thirty-two bits.
+const LONGS_A_LEVEL: f64 = 16_843_009.0;
 
 /// The level of white, which is 1 in floats.
 const WHITE: f64 = 255.0;
@@ -27,6 +32,10 @@ pub(super) enum Pixels {
     Words(ArcArray2<u16>),
     /// Grey of sixteen bits with a sign.
     Signed(ArcArray2<i16>),
+    /// Grey of thirty-two bits.
+    Long(ArcArray2<u32>),
+    /// Grey of thirty-two bits with a sign.
+    SignedLong(ArcArray2<i32>),
     /// Grey from 0 to 1 in floats, all finite.
     Floats(ArcArray2<f32>),
     /// Colors of eight bits.
@@ -72,6 +81,14 @@ macro_rules! with_levels {
                 let $levels = || list.iter().map(|&v| f64::from(v) / WORDS_A_LEVEL);
                 Some($body)
             }
+            Pixels::Long(list) => {
+                let $levels = || list.iter().map(|&v| f64::from(v) / LONGS_A_LEVEL);
+                Some($body)
+            }
+            Pixels::SignedLong(list) => {
+                let $levels = || list.iter().map(|&v| f64::from(v) / LONGS_A_LEVEL);
+                Some($body)
+            }
             Pixels::Floats(list) => {
                 let $levels = || list.iter().map(|&v| f64::from(v) * WHITE);
                 Some($body)
@@ -103,6 +120,8 @@ impl Pixels {
             Self::Bytes(list) => of(list.dim()),
             Self::Words(list) => of(list.dim()),
             Self::Signed(list) => of(list.dim()),
+            Self::Long(list) => of(list.dim()),
+            Self::SignedLong(list) => of(list.dim()),
             Self::Floats(list) => of(list.dim()),
             Self::Colors(list) => Some((list.width() as usize, list.height() as usize)),
             Self::DeepColors(list) => Some((list.width() as usize, list.height() as usize)),
@@ -126,7 +145,7 @@ impl Pixels {
         matches!(self, Self::Bytes(_) | Self::Colors(_) | Self::Levels)
     }
 
-    /// The same as it is looked at; colors have been turned already.
+    /// The same as it is looked at.
     pub(super) fn turned(self, orientation: Orientation) -> Self {
         match self {
             Self::Bytes(list) => Self::Bytes(upright(list.into_owned(), orientation).into_shared()),
@@ -134,10 +153,58 @@ impl Pixels {
             Self::Signed(list) => {
                 Self::Signed(upright(list.into_owned(), orientation).into_shared())
             }
+            Self::Long(list) => Self::Long(upright(list.into_owned(), orientation).into_shared()),
+            Self::SignedLong(list) => {
+                Self::SignedLong(upright(list.into_owned(), orientation).into_shared())
+            }
             Self::Floats(list) => {
                 Self::Floats(upright(list.into_owned(), orientation).into_shared())
             }
+            Self::Colors(list) => {
+                let mut image = DynamicImage::ImageRgb8(Arc::unwrap_or_clone(list));
+                image.apply_orientation(orientation);
+                Self::Colors(Arc::new(image.into_rgb8()))
+            }
+            Self::DeepColors(list) => {
+                let mut image = DynamicImage::ImageRgb16(Arc::unwrap_or_clone(list));
+                image.apply_orientation(orientation);
+                Self::DeepColors(Arc::new(image.into_rgb16()))
+            }
             other => other,
+        }
+    }
+
+    /// The names of its channels.
+    pub(super) const fn channel_names(&self) -> &'static [&'static str] {
+        match self {
+            Self::Colors(_) | Self::DeepColors(_) | Self::FloatColors(_) => {
+                &["red", "green", "blue"]
+            }
+            _ => &["grey"],
+        }
+    }
+
+    /// One channel of colors as it is; None of grey.
+    pub(super) fn one(&self, c: usize) -> Option<Self> {
+        fn shaped<T: Clone>(size: (usize, usize), list: Vec<T>) -> Option<ArcArray2<T>> {
+            let list = Array2::from_shape_vec((size.1, size.0), list).ok()?;
+            Some(list.into_shared())
+        }
+        let size = self.size()?;
+        match self {
+            Self::Colors(list) => {
+                let list = list.pixels().map(|p| p.0[c]).collect();
+                shaped(size, list).map(Self::Bytes)
+            }
+            Self::DeepColors(list) => {
+                let list = list.pixels().map(|p| p.0[c]).collect();
+                shaped(size, list).map(Self::Words)
+            }
+            Self::FloatColors(list) => {
+                let list = list.pixels().map(|p| p.0[c]).collect();
+                shaped(size, list).map(Self::Floats)
+            }
+            _ => None,
         }
     }
 
@@ -155,6 +222,8 @@ impl Pixels {
             Self::Bytes(list) => f64::from(list[[y, x]]),
             Self::Words(list) => f64::from(list[[y, x]]) / WORDS_A_LEVEL,
             Self::Signed(list) => f64::from(list[[y, x]]) / WORDS_A_LEVEL,
+            Self::Long(list) => f64::from(list[[y, x]]) / LONGS_A_LEVEL,
+            Self::SignedLong(list) => f64::from(list[[y, x]]) / LONGS_A_LEVEL,
             Self::Floats(list) => f64::from(list[[y, x]]) * WHITE,
             Self::Colors(list) => luma(list.get_pixel(at.0, at.1).0.map(f64::from)),
             Self::DeepColors(list) => {
@@ -167,6 +236,23 @@ impl Pixels {
             }
             Self::Levels => return None,
         })
+    }
+
+    /// Red, green and blue of one pixel, 0 … 255; None if there is but grey.
+    pub(super) fn color_at(&self, x: usize, y: usize) -> Option<[f64; 3]> {
+        let at = (as_u32(x), as_u32(y));
+        match self {
+            Self::Colors(list) => Some(list.get_pixel(at.0, at.1).0.map(f64::from)),
+            Self::DeepColors(list) => {
+                let level = |v: u16| f64::from(v) / WORDS_A_LEVEL;
+                Some(list.get_pixel(at.0, at.1).0.map(level))
+            }
+            Self::FloatColors(list) => {
+                let level = |v: f32| f64::from(v) * WHITE;
+                Some(list.get_pixel(at.0, at.1).0.map(level))
+            }
+            _ => None,
+        }
     }
 
     /// One channel of colors, 0 … 255; None if there is but grey.

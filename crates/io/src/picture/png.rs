@@ -4,6 +4,7 @@ use std::io::{BufRead, Read as _};
 
 use image::metadata::Orientation;
 
+use super::PixelSize;
 use super::source::{Found, after, cut, exact, skip, too_little, too_much};
 
 /// The largest factor by which deflate makes anything smaller.
@@ -32,6 +33,16 @@ pub(super) fn gather(input: &mut dyn BufRead, most: u64) -> Result<Found, String
                     .read_to_end(&mut body)
                     .map_err(|e| after(&e))?;
                 found.orientation = Orientation::from_exif_chunk(&body);
+                skip(input, 4)?;
+                continue;
+            }
+            b"pHYs" if bytes == 9 => {
+                let [x3, x2, x1, x0, y3, y2, y1, y0, unit] = exact::<9>(input)?;
+                let meters = |each: [u8; 4]| 1.0 / f64::from(u32::from_be_bytes(each));
+                let (x, y) = (meters([x3, x2, x1, x0]), meters([y3, y2, y1, y0]));
+                if unit == 1 {
+                    found.pixel_size = PixelSize::new(x, y, "m");
+                }
                 skip(input, 4)?;
                 continue;
             }

@@ -4,11 +4,17 @@ use std::io::{BufRead, Error, Read as _};
 
 use image::metadata::Orientation;
 
+use super::PixelSize;
+
+/// Bytes of a description that are looked at.
+pub(super) const MOST_DESCRIPTION: usize = 1 << 20;
+
 /// What is needed of a file: a smaller one that holds the same picture, and what the file says about it.
 #[derive(Debug)]
 pub(super) struct Found {
     pub bytes: Vec<u8>,
     pub orientation: Option<Orientation>,
+    pub pixel_size: Option<PixelSize>,
     /// Bytes that the decoder holds besides the pixels.
     pub working: u64,
     /// What people should know of the picture.
@@ -20,6 +26,7 @@ impl Found {
         Self {
             bytes,
             orientation: None,
+            pixel_size: None,
             working: 0,
             notes: Vec::new(),
         }

@@ -10,7 +10,10 @@ use tiff::tags::Tag;
 use super::decode::{broken, room};
 use super::pixels::Pixels;
 use super::source::{check_size, too_little};
+use super::tiff_palette::{self, Page};
+use super::{PictureReading, PixelSize, tiff_bands, tiff_size};
 use crate::limits::MOST_WHOLE;
+use crate::text::clip_to;
 
 /// Bytes of a table of strips or tiles.
 const MOST_TABLE: usize = 16 << 20;
@@ -19,13 +22,18 @@ const MOST_TABLE: usize = 16 << 20;
 pub(super) struct Head {
     pub orientation: Option<Orientation>,
     pub notes: Vec<String>,
-    /// Its pixels, if they are of one channel; None if the general reader is to read them.
+    /// How large a pixel is.
+    pub pixel_size: Option<PixelSize>,
+    /// Its pixels, if they are read here: of one channel, of a palette, of another page;
+    /// None if the general reader is to read them.
     pub grey: Option<Grey>,
 }
 
-/// Pixels of one channel.
+/// Pixels that are read.
 pub(super) enum Grey {
     Pixels(Pixels),
+    /// Pixels of which some do not count.
+    Masked(Pixels, Array2<bool>),
     /// Levels, not all of them finite, perhaps.
     Levels(Array2<f64>),
 }
@@ -50,12 +58,20 @@ const COMPRESSIONS: [(u64, &str, bool); 15] = [
 ];
 
 /// Read the head of a file of `length` bytes, and its pixels if they are of one channel.
-pub(super) fn read(reader: impl BufRead + Seek, length: u64, most: u64) -> Result<Head, String> {
-    let mut decoder = Decoder::new(reader).map_err(broken)?;
+pub(super) fn read(
+    mut reader: impl BufRead + Seek,
+    length: u64,
+    most: u64,
+    rule: &PictureReading,
+) -> Result<Head, String> {
+    let mut decoder = Decoder::new(&mut reader).map_err(broken)?;
     let mut notes = Vec::new();
-    if decoder.more_images() {
+    if decoder.more_images() && rule.page.is_none() {
         notes.push("the picture file holds several pages: the first is taken".to_owned());
     }
+    let said = tiff_size::said(&mut decoder);
+    let wanted = tiff_bands::find(&mut decoder, &said, rule)?;
+    let pixel_size = said.pixel_size;
     let tag = |decoder: &mut Decoder<_>, tag: Tag| decoder.find_tag_unsigned::<u64>(tag);
     let orientation = tag(&mut decoder, Tag::Orientation).unwrap_or_default();
     let orientation = orientation.and_then(|number| u8::try_from(number).ok());
@@ -64,27 +80,60 @@ pub(super) fn read(reader: impl BufRead + Seek, length: u64, most: u64) -> Resul
     let compression = compression.unwrap_or(1);
     known_compression(compression)?;
     let photometric = tag(&mut decoder, Tag::PhotometricInterpretation).map_err(broken)?;
-    if photometric == Some(3) {
-        return Err(unsupported("its colors are numbers of a palette"));
-    }
     let (width, height) = decoder.dimensions().map_err(broken)?;
     let (width, height) = (u64::from(width), u64::from(height));
     check_size(width, height, most)?;
+    if photometric == Some(3) {
+        let bits = tag(&mut decoder, Tag::BitsPerSample)
+            .map_err(broken)?
+            .unwrap_or(1);
+        enough(compression, bits, [width, height, length])?;
+        room(width * height * 5)?;
+        let page = Page {
+            number: wanted.page,
+            at: decoder.ifd_pointer().map_or(0, |pointer| pointer.0),
+            order: decoder.byte_order(),
+        };
+        let pixels = tiff_palette::read(reader, &page, bits, limits(width * height, length))?;
+        let pixels = match &wanted.channel {
+            Some(name) => {
+                let at = channel(name, pixels.channel_names())?;
+                pixels.one(at).unwrap_or(pixels)
+            }
+            None => pixels,
+        };
+        return Ok(Head {
+            orientation,
+            notes,
+            pixel_size,
+            grey: Some(Grey::Pixels(pixels)),
+        });
+    }
     let color = match decoder.colortype() {
         Ok(color) => color,
         Err(error) => return Err(unsupported(&error.to_string())),
     };
+    let samples = u64::from(color.num_samples());
+    let several = samples > 1 && (wanted.channel.is_some() || wanted.page > 1);
+    if several || matches!(color, tiff::ColorType::Multiband { .. }) {
+        let bits = samples * u64::from(color.bit_depth());
+        enough(compression, bits, [width, height, length])?;
+        let bytes = width * height * bits.div_ceil(8);
+        if bits / samples > 16 || samples > 4 {
+            check_size(width, height, most.min(MOST_WHOLE))?;
+        }
+        room(bytes.saturating_mul(3))?;
+        let mut decoder = decoder.with_limits(limits(bytes, length));
+        let grey = tiff_bands::read(&mut decoder, &wanted)?;
+        return Ok(Head {
+            orientation,
+            notes,
+            pixel_size,
+            grey: Some(grey),
+        });
+    }
     let bits = match color {
         tiff::ColorType::Gray(bits) => bits,
-        tiff::ColorType::Multiband {
-            num_samples,
-            bit_depth,
-        } => {
-            let message = format!(
-                "it has {num_samples} samples of {bit_depth} bits a pixel without a word on their colors"
-            );
-            return Err(unsupported(&message));
-        }
         other => {
             let samples = u64::from(other.num_samples());
             let bits = samples * u64::from(other.bit_depth());
@@ -93,6 +142,7 @@ pub(super) fn read(reader: impl BufRead + Seek, length: u64, most: u64) -> Resul
             return Ok(Head {
                 orientation,
                 notes,
+                pixel_size,
                 grey: None,
             });
         }
@@ -105,8 +155,8 @@ pub(super) fn read(reader: impl BufRead + Seek, length: u64, most: u64) -> Resul
         .and_then(|list| list.first().copied());
     let format = format.unwrap_or(1);
     let known = match format {
-        1 => matches!(bits, 1 | 2 | 4 | 8 | 16),
-        2 => matches!(bits, 8 | 16),
+        1 => matches!(bits, 1 | 2 | 4 | 8 | 16 | 32),
+        2 => matches!(bits, 8 | 16 | 32),
         3 => matches!(bits, 16 | 32 | 64),
         _ => false,
     };
@@ -121,17 +171,13 @@ pub(super) fn read(reader: impl BufRead + Seek, length: u64, most: u64) -> Resul
             "its pixels are {kind} of {bits} bits"
         )));
     }
-    if format == 3 {
+    if format == 3 || bits > 16 {
         check_size(width, height, most.min(MOST_WHOLE))?;
     }
     let bytes = width * height * u64::from(bits).div_ceil(8);
     room(2 * bytes)?;
-    let mut limits = Limits::default();
-    let most = usize::try_from(bytes.max(1 << 20)).unwrap_or(usize::MAX);
-    limits.decoding_buffer_size = most;
-    limits.intermediate_buffer_size = most.max(usize::try_from(length).unwrap_or(usize::MAX));
-    limits.ifd_value_size = MOST_TABLE;
-    let read = decoder.with_limits(limits).read_image().map_err(broken)?;
+    let mut decoder = decoder.with_limits(limits(bytes, length));
+    let read = decoder.read_image().map_err(broken)?;
     #[expect(
         clippy::cast_possible_truncation,
         reason = "a picture that has been decoded is in memory"
@@ -141,11 +187,42 @@ pub(super) fn read(reader: impl BufRead + Seek, length: u64, most: u64) -> Resul
     Ok(Head {
         orientation,
         notes,
+        pixel_size,
         grey: Some(grey),
     })
 }
 
-fn grey(read: DecodingResult, bits: u32, dim: (usize, usize)) -> Result<Grey, String> {
+/// What the decoder may take for so many bytes of pixels in a file of `length`.
+fn limits(bytes: u64, length: u64) -> Limits {
+    let mut limits = Limits::default();
+    let most = usize::try_from(bytes.max(1 << 20)).unwrap_or(usize::MAX);
+    limits.decoding_buffer_size = most;
+    limits.intermediate_buffer_size = most.max(usize::try_from(length).unwrap_or(usize::MAX));
+    limits.ifd_value_size = MOST_TABLE;
+    limits
+}
+
+/// The number from 0 of the channel that is called so, among channels of these names.
+pub(super) fn channel(wanted: &str, names: &[impl AsRef<str>]) -> Result<usize, String> {
+    let same = |name: &&str| name.eq_ignore_ascii_case(wanted.trim());
+    let each = names.iter().map(AsRef::as_ref);
+    if let Some(at) = each.clone().position(|name| same(&name)) {
+        return Ok(at);
+    }
+    let number = wanted.trim().parse::<usize>().ok();
+    if let Some(number) = number.filter(|number| (1..=names.len()).contains(number)) {
+        return Ok(number - 1);
+    }
+    let all: Vec<String> = each.take(20).map(|name| clip_to(name, 30)).collect();
+    Err(format!(
+        "no channel is called {}; the channels are {} ({})",
+        clip_to(wanted, 30),
+        all.join(", "),
+        names.len()
+    ))
+}
+
+pub(super) fn grey(read: DecodingResult, bits: u32, dim: (usize, usize)) -> Result<Grey, String> {
     fn shaped<T>(dim: (usize, usize), list: Vec<T>) -> Result<Array2<T>, String> {
         Array2::from_shape_vec(dim, list).map_err(broken)
     }
@@ -160,6 +237,8 @@ fn grey(read: DecodingResult, bits: u32, dim: (usize, usize)) -> Result<Grey, St
             Pixels::Signed(shaped(dim, wide)?.into_shared())
         }
         DecodingResult::I16(list) => Pixels::Signed(shaped(dim, list)?.into_shared()),
+        DecodingResult::U32(list) => Pixels::Long(shaped(dim, list)?.into_shared()),
+        DecodingResult::I32(list) => Pixels::SignedLong(shaped(dim, list)?.into_shared()),
         DecodingResult::F16(list) => {
             floats(shaped(dim, list.iter().map(|v| v.to_f32()).collect())?)
         }
@@ -170,7 +249,7 @@ fn grey(read: DecodingResult, bits: u32, dim: (usize, usize)) -> Result<Grey, St
         }
         _ => {
             return Err(unsupported(
-                "its pixels are whole numbers of 32 bits or more",
+                "its pixels are whole numbers of more than 32 bits",
             ));
         }
     };
@@ -187,7 +266,7 @@ fn floats(list: Array2<f32>) -> Pixels {
 }
 
 /// Pixels of less than eight bits, each row beginning with a new byte; the largest number is white.
-fn unpacked(list: &[u8], bits: u32, (height, width): (usize, usize)) -> Vec<u8> {
+pub(super) fn unpacked(list: &[u8], bits: u32, (height, width): (usize, usize)) -> Vec<u8> {
     let row = (width * bits as usize).div_ceil(8);
     let most = (1_u16 << bits) - 1;
     let each = 8 / bits as usize;
@@ -216,10 +295,10 @@ fn known_compression(number: u64) -> Result<(), String> {
     }
 }
 
-fn unsupported(what: &str) -> String {
+pub(super) fn unsupported(what: &str) -> String {
     format!(
-        "a TIFF of this kind is not supported: {}; grey or RGB of 8 or 16 bits, or floats, are needed",
-        crate::text::clip_to(what, 160)
+        "a TIFF of this kind is not supported: {}; grey of up to 32 bits, RGB of 8 or 16 bits, or floats, are needed",
+        clip_to(what, 160)
     )
 }
 

@@ -1,5 +1,7 @@
 //! Which columns of a table hold what, by their headings.
 
+use super::format::Column;
+
 /// Names of a column of x, lower case.
 const X: [&str; 10] = [
     "x",
@@ -76,6 +78,55 @@ impl Columns {
         count: 2,
     };
 
+    /// Of a table without a heading, of which these columns are asked for.
+    ///
+    /// # Errors
+    /// Columns by name.
+    pub(super) fn numbered((x, y): &(Column, Column), count: usize) -> Result<Self, String> {
+        let at = |column: &Column| match column {
+            Column::Number(number) if (1..=count).contains(number) => Ok(number - 1),
+            Column::Number(number) => Err(format!("{count} columns; column {number} is asked for")),
+            Column::Name(_) => Err(
+                "no heading; one that names the columns that are asked for is needed".to_owned(),
+            ),
+        };
+        Ok(Self {
+            x: at(x)?,
+            y: at(y)?,
+            count,
+            ..Self::TWO
+        })
+    }
+
+    /// By a heading, but for the columns of x and y that are asked for.
+    ///
+    /// # Errors
+    /// A column that is not there.
+    pub(super) fn given(words: &[String], (x, y): &(Column, Column)) -> Result<Self, String> {
+        let at = |column: &Column| match column {
+            Column::Number(number) => Some(number - 1).filter(|at| *at < words.len()),
+            Column::Name(wanted) => {
+                let wanted = wanted.trim();
+                let same = |word: &String| word.trim() == wanted;
+                let like = |word: &String| word.trim().to_lowercase() == wanted.to_lowercase();
+                words
+                    .iter()
+                    .position(same)
+                    .or_else(|| words.iter().position(like))
+            }
+        };
+        let need = |column| at(column).ok_or("a column that is asked for is not in the heading");
+        let (x, y) = (need(x)?, need(y)?);
+        Ok(Self {
+            x,
+            y,
+            ..Self::beside(
+                &words.iter().map(|word| name(word)).collect::<Vec<_>>(),
+                &[x, y],
+            )
+        })
+    }
+
     /// By a heading.
     ///
     /// # Errors
@@ -95,19 +146,31 @@ impl Columns {
                 ));
             }
         }
-        let find = |known: &[&str]| {
-            // the first name on the list that there is
-            let at = |wanted: &&str| names.iter().position(|(name, _)| name == wanted);
-            known.iter().find_map(at)
-        };
         Ok(Self {
             x,
             y,
+            ..Self::beside(&names, &[])
+        })
+    }
+
+    /// Those besides x and y, of which none is among some that are taken.
+    fn beside(names: &[(String, String)], taken: &[usize]) -> Self {
+        let find = |known: &[&str]| {
+            // the first name on the list that there is
+            let at = |wanted: &&str| {
+                let mut all = (0..names.len()).filter(|at| !taken.contains(at));
+                all.find(|&at| names[at].0 == *wanted)
+            };
+            known.iter().find_map(at)
+        };
+        Self {
+            x: 0,
+            y: 1,
             curve: find(&CURVE),
             closed: find(&["closed"]),
             ring: find(&["ring"]),
-            count: words.len(),
-        })
+            count: names.len(),
+        }
     }
 }
 

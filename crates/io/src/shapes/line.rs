@@ -23,6 +23,23 @@ impl Separator {
         first.map_or(Self::Space, |at| Self::Letter(LETTERS[at]))
     }
 
+    /// The number that an entry is; with a decimal comma, perhaps, where commas do not separate.
+    pub(super) fn number(self, entry: &str) -> Option<f64> {
+        if let Ok(number) = entry.parse() {
+            return Some(number);
+        }
+        let comma = matches!(self, Self::Letter('\t' | ';')) && !entry.contains('.');
+        let (whole, rest) = entry.split_once(',').filter(|_| comma)?;
+        let digits =
+            |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
+        let begin = whole.trim_start_matches(['-', '+']);
+        let rest_digits = rest.split(['e', 'E']).next().unwrap_or_default();
+        if !(digits(begin) && digits(rest_digits)) {
+            return None;
+        }
+        format!("{whole}.{rest}").parse().ok()
+    }
+
     /// The entries of a line, without the space and the quotes around them; nothing is kept.
     pub(super) fn split(self, line: &str) -> impl Iterator<Item = &str> {
         let mut rest = Some(match self {
@@ -69,6 +86,25 @@ fn unquoted(word: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_decimal_comma_is_one_where_commas_do_not_separate() {
+        for (line, numbers) in [
+            ("12,5;-40,25", &[Some(12.5), Some(-40.25)][..]),
+            ("12,5\t1e3", &[Some(12.5), Some(1000.0)]),
+            (
+                "1,5e2;,5;1,234,567;1.234,5",
+                &[Some(150.0), None, None, None],
+            ),
+        ] {
+            let separator = Separator::of(line);
+            let found: Vec<_> = separator
+                .split(line)
+                .map(|one| separator.number(one))
+                .collect();
+            assert_eq!(found, numbers, "{line}");
+        }
+    }
 
     #[test]
     fn entries_stand_between_separators_that_are_not_in_quotes() {

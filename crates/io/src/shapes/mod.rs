@@ -1,7 +1,29 @@
 //! Outlines as files: several in one file, each of one or more rings, with a name and whatever else
 //! a program notes beside it.
 //!
-//! The one format so far is a table: a line `x,y` for each point.
+//! [`load`] tells the [`Format`] of a file by its first bytes, [`Reading`] says what a file leaves
+//! open, and [`write()`] makes the bytes of any format but those that are read only. Inside, pixels
+//! are counted as in the rest of this program: x to the right, y down, the center of the first pixel
+//! at (0, 0); what counts from that pixel's corner is moved by half a pixel.
+//!
+//! | format | read | written | of ids, labels, properties are kept |
+//! | --- | --- | --- | --- |
+//! | [`Csv`](Format::Csv) | x,y by heading, number or name | as read | ids |
+//! | [`GeoJson`](Format::GeoJson) | every geometry | Polygon, `LineString`, Point, Multi… | all |
+//! | [`Coco`](Format::Coco) | polygons, runs, boxes | polygons; with holes, runs of pixels | all |
+//! | [`ImageJ`](Format::ImageJ) | areas, lines, points; `.roi`, `.zip` | 32-bit floats | all, as text |
+//! | [`Svg`](Format::Svg) | every shape, transforms, curves as edges | a path each | ids, labels |
+//! | [`Labelme`](Format::Labelme) | every shape, masks | all without holes | all |
+//! | [`Cvat`](Format::Cvat) | every shape of images | | labels, properties |
+//! | [`Mask`](Format::Mask) | any picture | PNG of 0 and 255 | none |
+//! | [`Labels`](Format::Labels) | any picture of whole numbers | PNG of 16 bits | ids that are numbers |
+//! | [`DeepLabels`](Format::DeepLabels) | the same | TIFF of 32 bits | ids that are numbers |
+//! | [`Soft`](Format::Soft) | floats, or grey; the line of one half | | |
+//!
+//! Of a picture without a word on its format, 0 and 1 or black and white are a mask, other whole
+//! numbers labels (those of colors their hexadecimal `#rrggbb`), and other numbers a soft mask.
+//!
+//! A table is a line `x,y` for each point.
 //!
 //! ```text
 //! # contour 1, closed
@@ -11,12 +33,28 @@
 //!
 //! The comment and the heading may be left out; a heading names the columns, x and y among them in
 //! any place; separators may be commas, semicolons, tabs or spaces. Several outlines have a column
-//! `curve`, or blank lines between them; several rings of one outline have a column `ring`. Labels
-//! and properties are not kept in a table.
+//! `curve`, or blank lines between them; several rings of one outline have a column `ring`. Numbers
+//! may have a decimal comma where commas are no separators. Labels and properties are not kept in a
+//! table.
 
+mod budget;
+mod coco;
+mod cvat;
+mod flatten;
+mod format;
+mod geojson;
 mod heading;
+mod imagej;
+mod json;
+mod labelme;
 mod line;
+mod raster;
+mod rings;
+mod runs;
+mod svg;
 mod table;
+mod trace;
+mod xml;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -24,9 +62,11 @@ use std::path::Path;
 use glam::DVec2;
 
 use crate::IoError;
-use crate::limits::MOST_CONTOUR_BYTES;
-use crate::read::{called, read_text};
+use crate::limits::{MOST_CONTOUR_BYTES, MOST_STREAM};
+use crate::read::{called, read_bytes};
 use crate::write::write_whole;
+
+pub use format::{Column, Context, Format, Origin, Reading};
 
 /// The outlines of a file.
 pub type Shapes = Vec<Shape>;
@@ -76,6 +116,16 @@ impl Shape {
         }
     }
 
+    /// Bytes of what it has besides points, roughly.
+    fn weight(&self) -> usize {
+        let own = |text: &Option<String>| text.as_ref().map_or(0, String::len);
+        let properties = self
+            .properties
+            .iter()
+            .map(|(name, value)| 64 + name.len() + value.weight());
+        own(&self.id) + own(&self.label) + properties.sum::<usize>()
+    }
+
     /// Its first ring.
     #[must_use]
     pub fn first(&self) -> &[DVec2] {
@@ -83,14 +133,51 @@ impl Shape {
     }
 }
 
-/// Read the outlines of a file, or of standard input for `-`.
+impl Value {
+    /// Its bytes, roughly.
+    fn weight(&self) -> usize {
+        match self {
+            Self::Text(text) => 32 + text.len(),
+            Self::List(list) => 32 + list.iter().map(Self::weight).sum::<usize>(),
+            Self::Table(table) => {
+                64 + table
+                    .iter()
+                    .map(|(name, value)| 64 + name.len() + value.weight())
+                    .sum::<usize>()
+            }
+            _ => 32,
+        }
+    }
+}
+
+/// Read the outlines of a file, or of standard input for `-`, of the format that its first bytes tell.
 ///
 /// # Errors
 ///
-/// A file that cannot be read, or whatever [`parse`] refuses, by the file's name.
+/// A file that cannot be read, that is too large, or whatever [`parse_with`] refuses, by the file's name.
 pub fn load(path: &Path) -> Result<Shapes, IoError> {
-    let text = read_text(path, "a CSV of x,y", MOST_CONTOUR_BYTES)?;
-    parse(&text).map_err(|error| error.within(&called(path)))
+    load_with(path, &Reading::default())
+}
+
+/// [`load`] with a word on how.
+///
+/// # Errors
+///
+/// As [`load`].
+pub fn load_with(path: &Path, reading: &Reading) -> Result<Shapes, IoError> {
+    let most = |head: &[u8]| match format::kind(head) {
+        format::Kind::Picture => MOST_STREAM,
+        _ => MOST_CONTOUR_BYTES,
+    };
+    let bytes = read_bytes(path, "a CSV of x,y or another file of outlines", most)?;
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    let roi = ending.is_some_and(|ending| ending.eq_ignore_ascii_case("roi"));
+    let mut reading = reading.clone();
+    if roi && reading.format.is_none() {
+        // whatever else it is by its bytes would be a surprise
+        reading.format = Some(Format::ImageJ);
+    }
+    parse_with(&bytes, &reading).map_err(|error| error.within(&called(path)))
 }
 
 /// [`load`] for a file of one outline.
@@ -99,11 +186,37 @@ pub fn load(path: &Path) -> Result<Shapes, IoError> {
 ///
 /// As [`load`]; a file of more than one.
 pub fn load_one(path: &Path) -> Result<Shape, IoError> {
-    let text = read_text(path, "a CSV of x,y", MOST_CONTOUR_BYTES)?;
-    parse_one(&text).map_err(|error| error.within(&called(path)))
+    one(load(path)?).map_err(|error| error.within(&called(path)))
 }
 
-/// Read the outlines of a text: told apart by a column `curve` (or `id`, `label`, …) whose values
+/// Read outlines from bytes of that format.
+///
+/// # Errors
+///
+/// As [`parse_with`].
+pub fn parse_as(bytes: &[u8], format: Format) -> Result<Shapes, IoError> {
+    let format = Some(format);
+    parse_with(
+        bytes,
+        &Reading {
+            format,
+            ..Reading::default()
+        },
+    )
+}
+
+/// Read outlines from the bytes of a file.
+///
+/// # Errors
+///
+/// Bytes of another format, cut or broken, or more than is sensible; numbers that are not finite or
+/// too large; outlines of several pictures where [`Reading::picture`] names none. The message has
+/// the line, the place in a JSON or the name in a ZIP, and at most a few words of the file.
+pub fn parse_with(bytes: &[u8], reading: &Reading) -> Result<Shapes, IoError> {
+    format::read(bytes, reading)
+}
+
+/// Read the outlines of a table: told apart by a column `curve` (or `id`, `label`, …) whose values
 /// repeat, by blank lines or by headings between them.
 ///
 /// # Errors
@@ -120,7 +233,10 @@ pub fn parse(text: &str) -> Result<Shapes, IoError> {
 ///
 /// As [`parse`]; a text of more than one.
 pub fn parse_one(text: &str) -> Result<Shape, IoError> {
-    let mut shapes = parse(text)?;
+    one(parse(text)?)
+}
+
+fn one(mut shapes: Shapes) -> Result<Shape, IoError> {
     match shapes.pop() {
         Some(shape) if shapes.is_empty() => Ok(shape),
         _ => Err(IoError::text(
@@ -130,7 +246,32 @@ pub fn parse_one(text: &str) -> Result<Shape, IoError> {
     }
 }
 
-/// Outlines as text, which [`parse`] reads back exactly, but for labels and properties. Of more
+/// Outlines as the bytes of a file.
+///
+/// # Errors
+///
+/// What the format cannot hold, by the number of the outline from 1: open lines where areas are needed, holes for
+/// labelme, labels beyond 16 bits; a ring without points or with ones that are not finite; a picture without
+/// pixels where its size is needed; a format that is read only.
+pub fn write(shapes: &[Shape], format: Format, context: &Context) -> Result<Vec<u8>, IoError> {
+    format::write(shapes, format, context)
+}
+
+/// Write outlines into one file of that format, whole or not at all.
+///
+/// # Errors
+///
+/// As [`write()`]; a folder that is not there or cannot be written.
+pub fn save_as(
+    shapes: &[Shape],
+    path: &Path,
+    format: Format,
+    context: &Context,
+) -> Result<(), IoError> {
+    write_whole(path, &write(shapes, format, context)?)
+}
+
+/// Outlines as a table, which [`parse`] reads back exactly, but for labels and properties. Of more
 /// than one, a column `curve` has the name of each, or where some have none, its number from 1 on;
 /// where not all are closed or open, a column `closed` has 1 or 0; where one has several rings, a
 /// column `ring` has their numbers from 0 on.
@@ -139,7 +280,7 @@ pub fn to_text(shapes: &[Shape]) -> String {
     table::to_text(shapes)
 }
 
-/// Write outlines into one file, whole or not at all.
+/// Write outlines into one table, whole or not at all.
 ///
 /// # Errors
 ///
@@ -148,5 +289,9 @@ pub fn save(shapes: &[Shape], path: &Path) -> Result<(), IoError> {
     write_whole(path, to_text(shapes).as_bytes())
 }
 
+#[cfg(test)]
+mod refusals;
+#[cfg(test)]
+mod round_trips;
 #[cfg(test)]
 mod tests;

@@ -5,11 +5,14 @@ use std::fmt::Write as _;
 
 use glam::DVec2;
 
+use super::budget::point;
+use super::format::{Column, Origin, Reading};
+use super::geojson::shift;
 use super::heading::{Columns, is_heading};
 use super::line::Separator;
 use super::{Shape, Shapes};
 use crate::IoError;
-use crate::limits::{FARTHEST, MOST_NODES};
+use crate::limits::MOST_NODES;
 
 /// The version of the format.
 const VERSION: &str = "1";
@@ -17,8 +20,45 @@ const VERSION: &str = "1";
 /// Entries of a heading that are looked at.
 const MOST_COLUMNS: usize = 1000;
 
+/// What is asked of the reader of a table.
+#[derive(Debug, Clone, Default)]
+pub(super) struct TableRule {
+    /// The columns of x and y, if the heading is not to say so.
+    columns: Option<(Column, Column)>,
+    /// What to add to each point.
+    shift: DVec2,
+    /// Whether each point is an outline.
+    points: bool,
+}
+
+impl TableRule {
+    pub(super) fn of(reading: &Reading) -> Result<Self, IoError> {
+        let columns = reading.columns.clone();
+        let wrong = |column: &Column| matches!(column, Column::Number(number) if !(1..=MOST_COLUMNS).contains(number));
+        if let Some((x, y)) = &columns
+            && (wrong(x) || wrong(y))
+        {
+            let message = format!("columns are numbered from 1, up to {MOST_COLUMNS}");
+            return Err(IoError::text(None, message));
+        }
+        Ok(Self {
+            columns,
+            shift: shift(reading.origin.unwrap_or(Origin::Center)),
+            points: reading.points,
+        })
+    }
+}
+
 pub(super) fn parse(text: &str) -> Result<Shapes, IoError> {
     Reader::default().read(text)
+}
+
+pub(super) fn parse_with(text: &str, rule: &TableRule) -> Result<Shapes, IoError> {
+    let reader = Reader {
+        rule: rule.clone(),
+        ..Reader::default()
+    };
+    reader.read(text)
 }
 
 pub(super) fn to_text(shapes: &[Shape]) -> String {
@@ -85,6 +125,7 @@ fn names(shapes: &[Shape]) -> Vec<String> {
 /// What has been read of a text so far.
 #[derive(Default)]
 struct Reader {
+    rule: TableRule,
     closed: Option<bool>,
     columns: Option<Columns>,
     /// Whether a heading has named them.
@@ -158,10 +199,13 @@ impl Reader {
         if self.columns.is_none() || self.fresh {
             let begin = separator.split(line).take(MOST_COLUMNS);
             let words: Vec<String> = begin.map(str::to_owned).collect();
-            let numbers = words.iter().any(|word| word.parse::<f64>().is_ok());
+            let numbers = words.iter().any(|word| separator.number(word).is_some());
             if !numbers && is_heading(&words) && (self.points.is_empty() == self.columns.is_none())
             {
-                self.columns = Some(Columns::of(&words)?);
+                self.columns = Some(match &self.rule.columns {
+                    Some(given) => Columns::given(&words, given)?,
+                    None => Columns::of(&words)?,
+                });
                 self.headed = true;
                 self.fresh = true;
                 return Ok(());
@@ -173,6 +217,12 @@ impl Reader {
     /// A line of numbers.
     fn row(&mut self, separator: Separator, line: &str) -> Result<(), String> {
         let given = self.headed;
+        if self.columns.is_none()
+            && let Some(given) = &self.rule.columns
+        {
+            let count = separator.split(line).take(MOST_COLUMNS).count();
+            self.columns = Some(Columns::numbered(given, count)?);
+        }
         let columns = *self.columns.get_or_insert(Columns::TWO);
         // a heading may be set otherwise than its columns
         let separator = if given && self.separator.is_none() {
@@ -184,7 +234,7 @@ impl Reader {
         let (mut x, mut y, mut curve, mut closed, mut ring) = (None, None, None, None, None);
         let mut count = 0;
         for entry in separator.split(line) {
-            let number = || entry.parse::<f64>().ok();
+            let number = || separator.number(entry);
             if count == columns.x {
                 x = number();
             } else if count == columns.y {
@@ -209,16 +259,12 @@ impl Reader {
         let (Some(x), Some(y)) = (x, y) else {
             return Err("two numbers x,y are needed".to_owned());
         };
-        if !(x.abs() <= FARTHEST && y.abs() <= FARTHEST) {
-            return Err(format!(
-                "numbers must be from -{FARTHEST:e} to {FARTHEST:e}"
-            ));
-        }
+        let p = point(x, y)? + self.rule.shift;
         if self.fresh && !self.points.is_empty() {
             self.blocks.push(self.points.len());
         }
         self.fresh = false;
-        self.points.push(DVec2::new(x, y));
+        self.points.push(p);
         self.marks.push(Mark {
             curve: self.curves.number(curve),
             closed,
@@ -259,6 +305,10 @@ impl Reader {
 
     /// The shapes that the points make.
     fn shapes(self) -> Shapes {
+        if self.rule.points {
+            let shape = |p| Shape::curve(vec![p], None);
+            return self.points.into_iter().map(shape).collect();
+        }
         let n = self.points.len();
         // a column that never says the same twice counts points
         let by_column = (2..n).contains(&self.curves.0.len());

@@ -19,12 +19,72 @@ fn a_contour_may_have_a_comment_a_heading_and_any_usual_separator() {
         "# contour drawn by hand\n# record of plate 3\n# contour 3 of 7 by hand\n1,2.5\n-3,4\n",
         "x;y\n1;2.5\n-3;4\n\n\n",
         "x y\n1 2.5\n-3 4",
+        "x;y\n1,0;2,5\n-3;4,00\n",
+        "X\tY\n1,0\t2,5\n-3\t4\n",
     ] {
         let contour = parse_one(text).unwrap_or_else(|e| unreachable!("{text:?}: {e}"));
         assert_eq!(contour, Shape::curve(expected.clone(), None), "{text:?}");
     }
     let open = parse_one("# contour 1, open\n1,2").unwrap();
     assert_eq!(open.closed, Some(false));
+}
+
+#[test]
+fn columns_origin_and_points_are_as_asked_for() {
+    let name = |name: &str| Column::Name(name.to_owned());
+    let read = |text: &str, reading: &Reading| {
+        let reading = Reading {
+            format: Some(Format::Csv),
+            ..reading.clone()
+        };
+        parse_with(text.as_bytes(), &reading)
+    };
+    let by = |columns| Reading {
+        columns: Some(columns),
+        ..Reading::default()
+    };
+    let text = "time,lon,lat,cell\n0,1,2.5,a\n0,3,4,a\n0,5,6,b\n0,7,8,b\n";
+    for columns in [
+        (name("lon"), name("LAT")),
+        (Column::Number(2), Column::Number(3)),
+    ] {
+        let found = read(text, &by(columns)).unwrap();
+        assert_eq!(found.len(), 2);
+        assert_eq!(
+            found[0].first(),
+            [DVec2::new(1.0, 2.5), DVec2::new(3.0, 4.0)]
+        );
+    }
+    let found = read(
+        "9 1 2\n9 3 4\n",
+        &by((Column::Number(3), Column::Number(2))),
+    )
+    .unwrap();
+    assert_eq!(
+        found[0].first(),
+        [DVec2::new(2.0, 1.0), DVec2::new(4.0, 3.0)]
+    );
+    for (columns, says) in [
+        ((name("lon"), name("east")), "is not in the heading"),
+        (
+            (Column::Number(1), Column::Number(5)),
+            "is not in the heading",
+        ),
+        ((Column::Number(0), Column::Number(2)), "numbered from 1"),
+    ] {
+        let error = read(text, &by(columns)).unwrap_err().to_string();
+        assert!(error.contains(says), "{error}");
+    }
+    let corner = Reading {
+        origin: Some(Origin::Corner),
+        points: true,
+        ..Reading::default()
+    };
+    let found = read("x,y\n1,2\n3,4\n", &corner).unwrap();
+    assert_eq!(
+        found,
+        [(0.5, 1.5), (2.5, 3.5)].map(|p| Shape::curve(vec![DVec2::from(p)], None))
+    );
 }
 
 #[test]
@@ -39,7 +99,7 @@ fn a_bad_line_is_named_and_not_shown() {
         ("x,y\n", "no points"),
         ("", "no points"),
         ("x,y\nx,y\n1,2", "line 2: two numbers"),
-        ("12,5;40,5\n", "line 1: two numbers x,y are needed"),
+        ("12,5;40.5,1\n", "line 1: two numbers x,y are needed"),
         ("1,,2\n", "line 1: more than two entries"),
         ("0,1,2\n1,3,4\n", "line 1: more than two entries"),
         ("x,z\n1,2", "line 1: the heading must name a column y"),

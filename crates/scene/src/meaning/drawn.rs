@@ -1,5 +1,6 @@
 //! Pictures drawn from numbers.
 
+use field::drawn::{noisy, rounded};
 use field::{EdgeForce, Grid, Smoothing};
 use glam::DVec2;
 
@@ -76,13 +77,10 @@ pub(super) fn picture(text: &DrawnText) -> Result<Picture, SceneError> {
             .map_err(|error| key("blur", error.to_string()))?
             .smoothed;
     }
-    for (at, level) in levels.iter_mut().enumerate() {
-        if text.noise > 0.0 {
-            *level += text.noise * normal(text.seed, at as u64);
-        }
-        *level = level.clamp(0.0, 255.0).round();
+    if text.noise > 0.0 {
+        levels = noisy(&levels, text.noise, text.seed);
     }
-    Ok(Picture::from_levels(levels))
+    Ok(Picture::from_levels(rounded(&levels)))
 }
 
 /// Whether a place is in a region that is no list.
@@ -147,19 +145,4 @@ fn check_region(region: &RegionText) -> Result<(), SceneError> {
             number::length(&at("ellipse.axes"), e.axes[1]).map(drop)
         }
     }
-}
-
-/// A standard normal number for place `at` of the stream `seed`: splitmix64 and Box–Muller.
-fn normal(seed: u64, at: u64) -> f64 {
-    let word = |k: u64| {
-        let mut z = (seed << 32)
-            .wrapping_add(2 * at + k)
-            .wrapping_add(0x9E37_79B9_7F4A_7C15);
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    };
-    let unit = |w: u64| (w >> 11) as f64 / 9_007_199_254_740_992.0;
-    let (a, b) = (unit(word(0)) + f64::EPSILON / 2.0, unit(word(1)));
-    (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
 }

@@ -4,7 +4,8 @@
 //! angle; what is measured here to a hundredth of a pixel needs both.
 
 use crate::prelude::*;
-use field::{Grid, Line, Smoothing, line_strength};
+pub(super) use field::drawn::{noisy, rounded};
+use field::{Grid, Line, Smoothing, drawn, line_strength};
 use scene::ForceChoice;
 use scene::fit::{Contour, Image, Options, Prepared, Session};
 
@@ -28,16 +29,9 @@ const CORNERS: [(f64, f64); 8] = [
     (58.0, 198.0),
 ];
 
-/// A region drawn: each pixel by the share of 8 × 8 points of it that lie inside.
+/// A region drawn.
 pub(super) fn covered(dim: (usize, usize), inside: impl Fn(DVec2) -> bool) -> Grid {
-    Grid::from_shape_fn(dim, |(row, column)| {
-        let corner = DVec2::new(real(column), real(row)) - 0.5;
-        let points = (0..64_usize).filter(|point| {
-            let step = DVec2::new(real(point % 8), real(point / 8));
-            inside(corner + (2.0 * step + 1.0) / 16.0)
-        });
-        AROUND + (OBJECT - AROUND) * real(points.count()) / 64.0
-    })
+    drawn::covered(dim, inside, (OBJECT, AROUND))
 }
 
 /// The same, blurred by a Gaussian.
@@ -80,34 +74,6 @@ pub(super) fn along(corners: &[DVec2], apart: f64, inset: f64) -> Vec<(DVec2, DV
     out
 }
 
-/// White noise of a standard deviation, added to every pixel: splitmix64 and Box and Muller.
-pub(super) fn noisy(picture: &Grid, deviation: f64, seed: u64) -> Grid {
-    let mut numbers = 2 * (seed << 31)..;
-    let mut uniform = || {
-        let z = mixed(numbers.next().unwrap_or(0));
-        #[expect(clippy::cast_precision_loss, reason = "53 bits fit a double")]
-        let number = (z >> 11) as f64;
-        number / 2.0_f64.powi(53)
-    };
-    picture.mapv(|level| {
-        let (a, b) = (uniform(), uniform());
-        let size = (-2.0 * (a + 2.0_f64.powi(-53)).ln()).sqrt();
-        level + deviation * size * (std::f64::consts::TAU * b).cos()
-    })
-}
-
-fn mixed(number: u64) -> u64 {
-    let z = number.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^ (z >> 31)
-}
-
-/// Eight bits: whole grey levels, halves upwards.
-pub(super) fn rounded(picture: &Grid) -> Grid {
-    picture.mapv(|level| (level.clamp(0.0, 255.0) + 0.5).floor())
-}
-
 /// The scene of `snake fit` with forces as typed behind `--force`, several joined by a plus; the
 /// default for none.
 pub(super) fn fit(image: &Grid, start: &[DVec2], forces: &str) -> Result<Session> {
@@ -116,7 +82,7 @@ pub(super) fn fit(image: &Grid, start: &[DVec2], forces: &str) -> Result<Session
     let chosen = chosen.map_err(refused)?.into_iter();
     let options = Options {
         forces: chosen.map(ForceChoice::for_fit).collect(),
-        ..Options::default()
+        ..Options::motion()
     };
     let prepared = Prepared::of(&Image::grey(image.clone()), &options)?;
     Ok(prepared.session(&Contour::closed(start.to_vec()))?)

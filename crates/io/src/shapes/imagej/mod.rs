@@ -1,0 +1,52 @@
+//! `ImageJ` ROI files, one alone or many in a ZIP.
+//!
+//! Coordinates of areas count from the corner of the first pixel, those of lines and points from
+//! its center, as `ImageJ` draws them. Written are floats of 32 bits: 24 bits of each number.
+
+mod archive;
+mod decode;
+mod encode;
+
+use super::budget::{Budget, cannot};
+use super::format::Reading;
+use super::{Shape, Shapes};
+use crate::IoError;
+
+/// Types of outlines by their number.
+const POLYGON: u8 = 0;
+const RECTANGLE: u8 = 1;
+const OVAL: u8 = 2;
+const LINE: u8 = 3;
+const FREELINE: u8 = 4;
+const POLYLINE: u8 = 5;
+const FREEHAND: u8 = 7;
+const TRACED: u8 = 8;
+const ANGLE: u8 = 9;
+const POINT: u8 = 10;
+
+/// Where things stand in a file, by their offset.
+const COORDINATES: usize = 64;
+/// The option that floats stand behind the whole numbers.
+const SUBPIXEL: u16 = 128;
+
+pub(super) fn read(bytes: &[u8], reading: &Reading) -> Result<Shapes, IoError> {
+    let mut budget = Budget::default();
+    if bytes.starts_with(b"Iout") {
+        let shapes = decode::shapes(bytes, reading, &mut budget);
+        return shapes.map_err(|what| IoError::text(None, what));
+    }
+    archive::read(bytes, reading, &mut budget)
+}
+
+/// One outline as a ROI, several as a ZIP of them.
+pub(super) fn write(shapes: &[Shape]) -> Result<Vec<u8>, IoError> {
+    let refuse = |what: String| cannot("imagej", what);
+    let each = (1..).zip(shapes).map(|(number, shape)| {
+        encode::roi(shape).map_err(|what| refuse(format!("outline {number} {what}")))
+    });
+    let mut files: Vec<Vec<u8>> = each.collect::<Result<_, _>>()?;
+    match &shapes {
+        [_] => Ok(files.remove(0)),
+        _ => archive::write(shapes, &files).map_err(refuse),
+    }
+}

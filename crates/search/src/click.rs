@@ -1,0 +1,60 @@
+//! The search from a single place inside an object of unknown size.
+
+use field::Pixels;
+use glam::DVec2;
+
+use crate::along::Polygon;
+use crate::find::{Searched, find};
+use crate::rules::Rules;
+
+/// The smallest radius that is tried, and how each is larger than the last. Pixels.
+const SMALLEST: f64 = 3.0;
+const LARGER: f64 = 1.6;
+
+/// The largest radius, as a share of the picture's shorter side.
+const LARGEST: f64 = 0.5;
+
+/// Points of the circles.
+const POINTS: u32 = 64;
+
+/// Look for the outline around a place: circles of growing size are tried, and the outline that is closed best is
+/// taken, the first of equals. None for a place outside the picture.
+#[must_use]
+pub fn find_around(pixels: &dyn Pixels, place: DVec2, rules: &Rules) -> Option<Searched> {
+    let (width, height) = pixels.size();
+    let size = DVec2::new(width as f64, height as f64);
+    if !(place + 0.5).cmpge(DVec2::ZERO).all() || !(place + 0.5).cmple(size).all() {
+        return None;
+    }
+    // a small window within an object takes its texture for edges, and any region in it has some
+    let rules = &Rules {
+        pure: 1.0,
+        ..*rules
+    };
+    let mut best: Option<Searched> = None;
+    let mut radius = SMALLEST;
+    while radius <= LARGEST * size.min_element().max(2.0 * SMALLEST) {
+        let turn = |i| DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / f64::from(POINTS));
+        let points = (0..POINTS).map(|i| place + radius * turn(i)).collect();
+        let found = find(
+            pixels,
+            &Polygon {
+                points,
+                closed: true,
+            },
+            rules,
+        );
+        // an outline that leaves the place out is that of something else
+        let found = found.filter(|found| outline::winding(&found.taken().points, place) != Some(0));
+        if let Some(found) = found {
+            let better = best
+                .as_ref()
+                .is_none_or(|known| found.taken().support.closed > known.taken().support.closed);
+            if better {
+                best = Some(found);
+            }
+        }
+        radius *= LARGER;
+    }
+    best
+}

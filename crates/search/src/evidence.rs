@@ -1,0 +1,92 @@
+//! What a picture says for a curve, whatever search it came from.
+
+use glam::DVec2;
+
+use crate::along::{Polygon, smoothed};
+use crate::edges::{Across, percentile, size};
+use crate::view::View;
+
+/// Points that a curve is judged at.
+const POINTS: usize = 120;
+
+/// An edge may lie so far from the curve, in pixels of the window.
+const REACH: f64 = 1.5;
+
+/// Places on either side at which it is looked for.
+const LOOKS: i32 = 3;
+
+/// Fewer points in the picture say nothing.
+const LEAST: usize = POINTS / 4;
+
+/// What a picture says for a curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Support {
+    /// Strength of the edge that four fifths of the curve have at least: how closed it is. 0 … 1.
+    pub closed: f64,
+    /// Mean strength of the edge. 0 … 1.
+    pub edge: f64,
+    /// Length of the mean of the edge's color directions: how much it is of one polarity. 0 … `edge`.
+    pub polar: f64,
+}
+
+/// What the picture says for a curve. With `cut` a curve needs no edge where it goes along the border of the picture:
+/// so is an object judged that is found, but not which of two curves is taken.
+pub(crate) fn support(view: &View, curve: &[DVec2], closed: bool, cut: bool) -> Support {
+    let points = smoothed(curve, 1.0, closed);
+    let curve = Polygon { points, closed }.evenly(POINTS);
+    let mut strengths = Vec::with_capacity(POINTS);
+    let mut sum = [0.0; 3];
+    for across in best(view, &curve, cut).into_iter().flatten() {
+        let slope = size(across);
+        strengths.push(view.edges.strength(slope));
+        let whole = slope + view.edges.half();
+        if whole > 0.0 {
+            for (sum, one) in sum.iter_mut().zip(across) {
+                *sum += one / whole;
+            }
+        }
+    }
+    if strengths.len() < LEAST {
+        return Support {
+            closed: 0.0,
+            edge: 0.0,
+            polar: 0.0,
+        };
+    }
+    let count = strengths.len() as f64;
+    let edge = strengths.iter().sum::<f64>() / count;
+    Support {
+        closed: percentile(&mut strengths, 0.2),
+        edge,
+        polar: size(sum) / count,
+    }
+}
+
+/// The strength of the edge at each point of a curve.
+pub(crate) fn strengths(view: &View, curve: &Polygon) -> Vec<Option<f64>> {
+    let best = best(view, curve, true).into_iter();
+    best.map(|across| across.map(|across| view.edges.strength(size(across))))
+        .collect()
+}
+
+/// The steepest slope across a curve near each of its points; None where the picture is not known.
+fn best(view: &View, curve: &Polygon, cut: bool) -> Vec<Option<Across>> {
+    let normals = curve.normals(1.0);
+    let both = curve.points.iter().zip(&normals);
+    let one = |(p, normal): (&DVec2, &DVec2)| {
+        let near = (-LOOKS..=LOOKS).map(|k| {
+            let way = f64::from(k) * REACH / f64::from(LOOKS);
+            let across = view.edges.across(*p + way * *normal, *normal);
+            if view.is_forced() && view.signed(across) <= 0.0 {
+                [0.0; 3]
+            } else {
+                across
+            }
+        });
+        let steepest = near.max_by(|a, b| size(*a).total_cmp(&size(*b)));
+        // what goes along the border of the picture has nothing on its other side
+        let beyond = *p + (REACH + 1.0) * *normal;
+        steepest.filter(|_| view.is_known(*p) && (!cut || view.is_known(beyond)))
+    };
+    both.map(one).collect()
+}

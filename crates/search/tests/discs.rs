@@ -1,0 +1,177 @@
+//! The searches on drawn discs: found from near, from outside and from inside, whatever the picture's units.
+
+use field::{Grid, Pixels};
+use glam::DVec2;
+use search::along::Polygon;
+use search::{Rules, Search, find, find_around};
+
+const CENTER: DVec2 = DVec2::new(70.3, 64.8);
+const RADIUS: f64 = 30.0;
+
+#[derive(Debug)]
+struct Picture(Grid);
+
+impl Pixels for Picture {
+    fn size(&self) -> (usize, usize) {
+        let (height, width) = self.0.dim();
+        (width, height)
+    }
+
+    fn levels(&self) -> &Grid {
+        &self.0
+    }
+}
+
+/// Levels of a disc with a soft border, and a little texture so that the ground is not constant.
+fn level(p: DVec2) -> f64 {
+    let inside = (0.5 + (RADIUS - p.distance(CENTER)) / 3.0).clamp(0.0, 1.0);
+    let texture = 4.0 * (0.9 * p.x + 0.3 * p.y).sin() * (0.4 * p.x - 1.1 * p.y).cos();
+    60.0 + 120.0 * inside + texture
+}
+
+fn picture(change: impl Fn(f64) -> f64) -> Picture {
+    Picture(Grid::from_shape_fn((128, 140), |(y, x)| {
+        change(level(DVec2::new(x as f64, y as f64)))
+    }))
+}
+
+fn circle(center: DVec2, radius: f64) -> Polygon {
+    let turn = |i: u32| DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / 100.0);
+    Polygon {
+        points: (0..100).map(|i| center + radius * turn(i)).collect(),
+        closed: true,
+    }
+}
+
+/// The largest distance of a curve's points from the disc's border.
+fn off(points: &[DVec2]) -> f64 {
+    points
+        .iter()
+        .map(|p| (p.distance(CENTER) - RADIUS).abs())
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn it_is_found_from_near_from_outside_and_from_inside() {
+    let shift = DVec2::new(2.0, -1.0);
+    for (start, search, around) in [
+        (circle(CENTER + shift, 1.1 * RADIUS), Search::Near, false),
+        (circle(CENTER - shift, 0.96 * RADIUS), Search::Near, false),
+        (circle(CENTER + shift, 1.6 * RADIUS), Search::Within, false),
+        (circle(CENTER - shift, 0.45 * RADIUS), Search::Near, true),
+    ] {
+        let found = find(&picture(|v| v), &start, &Rules::default()).unwrap();
+        let far = off(&found.taken().points);
+        // the last stage goes on from within two pixels
+        assert!(far < 2.0, "{far} {found:?}");
+        assert_eq!((found.taken().search, found.around), (search, around));
+        assert!(found.taken().support.closed > 0.46);
+    }
+}
+
+#[test]
+fn nothing_depends_on_the_units_of_the_picture() {
+    let rules = Rules::default();
+    let start = circle(CENTER + DVec2::new(3.0, 2.0), 1.2 * RADIUS);
+    let plain = find(&picture(|v| v), &start, &rules).unwrap();
+    for change in [
+        |v: f64| 255.0 - v,
+        |v: f64| 0.25 * v,
+        |v: f64| 1e30 * v,
+        |v: f64| 1e-30 * v - 1e-29,
+    ] {
+        let other = find(&picture(change), &start, &rules).unwrap();
+        let apart = plain.taken().points.iter().zip(&other.taken().points);
+        let apart = apart.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+        assert!(apart < 0.7, "{apart}");
+    }
+}
+
+#[test]
+fn a_click_is_enough_and_one_outside_the_picture_is_refused() {
+    let found = find_around(
+        &picture(|v| v),
+        CENTER + DVec2::new(6.0, 4.0),
+        &Rules::default(),
+    )
+    .unwrap();
+    // a region's outline may have a spike of a node, which the last stage smooths
+    let points = &found.taken().points;
+    let far = points
+        .iter()
+        .filter(|p| (p.distance(CENTER) - RADIUS).abs() > 2.0)
+        .count();
+    assert!(50 * far < points.len(), "{far} of {}", points.len());
+    assert!(find_around(&picture(|v| v), DVec2::new(-3.0, 4.0), &Rules::default()).is_none());
+}
+
+#[test]
+fn a_disc_cut_by_the_border_is_free_along_it() {
+    // the right third of the disc is not in the picture
+    let whole = picture(|v| v);
+    let cut = Picture(whole.0.slice(ndarray::s![.., ..80]).to_owned());
+    let start = Polygon {
+        points: circle(CENTER, 1.12 * RADIUS)
+            .points
+            .iter()
+            .map(|p| p.min(DVec2::new(79.0, 127.0)))
+            .collect(),
+        closed: true,
+    };
+    let found = find(&cut, &start, &Rules::default()).unwrap();
+    let inner = found.taken().points.iter().filter(|p| p.x < 76.0).copied();
+    let inner: Vec<DVec2> = inner.collect();
+    assert!(
+        off(&inner) < 1.5 && inner.len() > 60,
+        "{} {}",
+        off(&inner),
+        inner.len()
+    );
+}
+
+#[test]
+fn a_blank_picture_supports_nothing() {
+    for blank in [picture(|_| 0.0), picture(|_| 7.5)] {
+        let found = find(&blank, &circle(CENTER, RADIUS), &Rules::default()).unwrap();
+        assert!(
+            found.taken().support.closed < 0.3,
+            "{:?}",
+            found.taken().support
+        );
+    }
+    let point = Polygon {
+        points: vec![CENTER; 8],
+        closed: true,
+    };
+    assert!(find(&picture(|v| v), &point, &Rules::default()).is_none());
+}
+
+#[test]
+fn an_open_curve_finds_a_line_of_edge() {
+    // a border that runs as a wave from left to right
+    let wave = |x: f64| 60.0 + 6.0 * (0.08 * x).sin();
+    let level = |(y, x): (usize, usize)| {
+        80.0 + 100.0 * (0.5 + (y as f64 - wave(x as f64)) / 3.0).clamp(0.0, 1.0)
+    };
+    let picture = Picture(Grid::from_shape_fn((120, 160), level));
+    let start = Polygon {
+        points: vec![
+            DVec2::new(12.0, 63.0),
+            DVec2::new(80.0, 58.0),
+            DVec2::new(148.0, 62.0),
+        ],
+        closed: false,
+    };
+    let found = find(&picture, &start, &Rules::default()).unwrap();
+    let worst = found
+        .taken()
+        .points
+        .iter()
+        .map(|p| (p.y - wave(p.x)).abs())
+        .fold(0.0, f64::max);
+    assert!(
+        worst < 2.0 && found.taken().support.closed > 0.46,
+        "{worst} {:?}",
+        found.taken().support
+    );
+}
