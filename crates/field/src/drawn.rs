@@ -14,7 +14,8 @@ use crate::grid::Grid;
 use glam::DVec2;
 use std::f64::consts::TAU;
 
-/// Levels `bright` in a region and `dark` around it: of each pixel by the share of an 8 × 8 grid of points in its square
+/// Levels `bright` in a region and `dark` around it: of each pixel by the share of an 8 × 8 grid of points
+/// in its square
 /// that lies in the region.
 #[must_use]
 pub fn covered(

@@ -276,7 +276,8 @@ fn valid(
     (None, true, start)
 }
 
-/// A curve within the image: the side of an object along the border is the border (Sutherland and Hodgman's cutting of a
+/// A curve within the image: the side of an object along the border is the border (Sutherland and
+/// Hodgman's cutting of a
 /// polygon, side by side).
 fn clipped(mut curve: Polygon, (width, height): (usize, usize)) -> Polygon {
     let last = DVec2::new(width as f64, height as f64) - 0.5;

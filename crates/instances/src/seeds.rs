@@ -29,7 +29,7 @@ pub enum Seeds {
 /// What is wrong with seeds or a picture.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SeedError {
-    /// A center or a radius that is none.
+    /// A center outside the picture, or a radius that is not above 0.
     #[error(
         "seed {number} has center ({x}, {y}) and radius {radius}; needed: a center in the picture, a radius above 0"
     )]

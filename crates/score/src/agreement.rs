@@ -41,7 +41,8 @@ pub struct Agreement {
 impl Agreement {
     /// Compare the outline found with the true one; what is within `tolerance` is near.
     ///
-    /// O(length × edges nearby); where the two are more than 32 pixels apart, O(length × edges). The same whichever way
+    /// O(length × edges nearby); where the two are more than 32 pixels apart, O(length × edges). The same
+    /// whichever way
     /// round the polygons run.
     ///
     /// # Errors

@@ -9,7 +9,8 @@ use ndarray::Array2;
 /// `[lorensen87]`.
 ///
 /// Its nodes lie halfway between a pixel inside and a neighbour outside; beyond the picture all is outside, so what
-/// reaches the border of the picture is closed along it, at −1/2. Pixels of the object that touch at a corner only are
+/// reaches the border of the picture is closed along it, at −1/2. Pixels of the object that touch at a
+/// corner only are
 /// not joined: the convention of `find_contours` of scikit-image where the object is the higher level. Around objects
 /// the area is positive (clockwise on the screen), around holes negative. A straight edge lies where the pixels end;
 /// a corner of a right angle is cut off by 1/8 of a pixel.

@@ -7,7 +7,8 @@ use glam::DVec2;
 /// The kernel reaches so many times its width; what is beyond is below 1e-8 of its height.
 const REACH: f64 = 6.0;
 
-/// The least and the greatest curvature of a closed polygon, smoothed along it by a Gaussian of this width. Pixels⁻¹,
+/// The least and the greatest curvature of a closed polygon, smoothed along it by a Gaussian of this
+/// width. Pixels⁻¹,
 /// the width in pixels.
 ///
 /// A polygon turns at its nodes only, by the angle from one edge to the next. Spread along the arc by the Gaussian the
@@ -19,7 +20,8 @@ const REACH: f64 = 6.0;
 ///
 /// periodic in the length, whose integral is the whole turn, 2π of a polygon that does not cross itself. It does not
 /// shrink what it smooths: of a circle it is 1 / R for any width well above the distance of the nodes. Positive where
-/// the polygon bulges, whichever way round it runs. Looked at on nodes and halfway between. O(n + n · width / spacing).
+/// the polygon bulges, whichever way round it runs. Looked at on nodes and halfway between. O(n + n ·
+/// width / spacing).
 ///
 /// ```
 /// let circle: Vec<_> = (0..90).map(|i| 30.0 * glam::DVec2::from_angle(f64::from(i) * 4_f64.to_radians())).collect();

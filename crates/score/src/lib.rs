@@ -32,7 +32,7 @@
 //! | how far two outlines are apart | [`Agreement`] |
 //! | whether an outline lies outside or inside of the truth, to a fraction of a pixel | [`Deviation`] |
 //! | how well two images of labels agree | [`Instances`] |
-//! | how far a node is from the truth along its normal, and whether its band says so | [`along_normal`], [`calibration`] |
+//! | distance from the truth along a normal, and whether a band holds it | [`along_normal`], [`calibration`] |
 //! | a picture whose truth is a formula | [`synthetic`] |
 //! | area, axes, roundness and so on of one outline | [`Measures`], [`curvature_extremes`], [`GreyMeans`] |
 //!

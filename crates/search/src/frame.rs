@@ -175,7 +175,8 @@ fn fill(channels: &mut [Grid], known: &Grid) {
     }
 }
 
-/// The least difference of neighbouring pixels that is not 0, on some lines of a part of a picture; 0 where there is none.
+/// The least difference of neighbouring pixels that is not 0, on some lines of a part of a picture; 0
+/// where there is none.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -6,7 +6,8 @@
 //!
 //! 1. **Window.** The start's surroundings are resampled so that the object has a radius of 64 pixels; color becomes
 //!    CIE L\*a\*b\*, grey is brought to 0 … 100. All that follows looks at this window only.
-//! 2. **Edge.** Slopes of the smoothed channels, s = x / (x + x₀): x₀ is the slope that three quarters of the window
+//! 2. **Edge.** Slopes of the smoothed channels, s = x / (x + x₀): x₀ is the slope that three quarters of
+//!    the window
 //!    do not reach, and at least six times what noise alone gives. So nothing depends on the picture's contrast.
 //! 3. **Polarity.** The difference of the median colors in the middle of the start and around it.
 //! 4. **Region.** Pixels are sorted into 24 classes of color and texture; each class has a likelihood inside and

@@ -1,6 +1,7 @@
 //! The cheapest path through a table of costs, exactly: one state a node, neighbours close to each other.
 //!
-//! The energy of a path k is `Σ cost[i][k_i] + bend · Σ (k_{i+1} − k_i)²`, where a step from one node to the next is
+//! The energy of a path k is `Σ cost[i][k_i] + bend · Σ (k_{i+1} − k_i)²`, where a step from one node to
+//! the next is
 //! at most `reach` states. Of a closed path the last node has the first as neighbour.
 //!
 //! An open path is found by the forward recursion of Viterbi and Bellman in O(n K reach). For a closed one, two best

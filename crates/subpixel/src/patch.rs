@@ -93,7 +93,8 @@ impl<'a, const N: usize> Part<'a, N> {
         (self.at)(self.pixels, x, y)
     }
 
-    /// The picture between its pixels by cubic convolution (\[keys81\], a = −1/2); beyond the border the last pixel is
+    /// The picture between its pixels by cubic convolution (\[keys81\], a = −1/2); beyond the border the
+    /// last pixel is
     /// repeated.
     pub(crate) fn sample(&self, p: DVec2) -> [f64; N] {
         let (width, height) = self.pixels.size();

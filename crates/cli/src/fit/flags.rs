@@ -97,7 +97,8 @@ pub(crate) struct Flags {
     /// given that only it has.
     #[arg(long, value_enum, help_heading = "Search")]
     pub method: Option<Method>,
-    /// Give a rule of the search another value: tether, region, inward, outward, outer, sure, unsure, pure or around; may be
+    /// Give a rule of the search another value: tether, region, inward, outward, outer, sure, unsure, pure
+    /// or around; may be
     /// given again.
     #[arg(long, value_name = "RULE=VALUE", help_heading = "Search")]
     pub set: Vec<Change>,

@@ -16,7 +16,8 @@ fn named(name: &str, shape: Shape, change: impl FnOnce(&mut Case)) -> Case {
     case
 }
 
-/// A disc, an ellipse and a star of five lobes, all of the area of a circle of radius 55 (the star: of that mean radius)
+/// A disc, an ellipse and a star of five lobes, all of the area of a circle of radius 55 (the star: of
+/// that mean radius)
 /// in 200 × 200 pixels, each without noise and with a contrast of 10, 5 and 2 times the noise, with so many seeds of
 /// it. Each with that ratio, which is infinite without noise.
 ///

@@ -1,6 +1,7 @@
 //! Pictures whose true outline is a formula, so that errors can be measured below a pixel.
 //!
-//! A region covers each pixel by a share of 8 × 8 points; then the picture is blurred, made noisy and rounded to 8 bits
+//! A region covers each pixel by a share of 8 × 8 points; then the picture is blurred, made noisy and
+//! rounded to 8 bits
 //! ([`field::drawn`]). The same case is the same picture on every machine that rounds logarithms and cosines alike.
 //!
 //! ```

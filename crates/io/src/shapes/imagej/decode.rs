@@ -261,7 +261,7 @@ fn path(bytes: &Bytes<'_>, flat: f64, budget: &mut Budget) -> Result<Vec<Vec<DVe
         let mut corners = [DVec2::ZERO; 3];
         let many = [1, 1, 2, 3, 0];
         let kind = (0..5_u8).find(|&kind| (step - f64::from(kind)).abs() < 1e-6);
-        let kind = usize::from(kind.ok_or("its path has a step that is none of 0 to 4")?);
+        let kind = usize::from(kind.ok_or("a step of its path must be of a kind from 0 to 4")?);
         for corner in corners.iter_mut().take(many[kind]) {
             let x = next("a step")?.0;
             let y;
