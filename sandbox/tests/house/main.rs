@@ -34,6 +34,7 @@ const FLOORS: [(&str, u32); 20] = [
     ("cli", 8),
     ("sandbox", 8),
     ("benches", 9), // it draws with the kit of the sandbox
+    ("peers", 10),  // general solvers, which nothing else builds
     ("py", 8),
 ];
 
@@ -79,8 +80,8 @@ const DOORS: [(&str, &[&str]); 29] = [
     ("plotters", &["sandbox"]),
     ("gif", &["sandbox"]),
     ("criterion", &["benches"]),
-    ("diffsol", &["benches"]),
-    ("ode_solvers", &["benches"]),
+    ("diffsol", &["peers"]),
+    ("ode_solvers", &["peers"]),
     ("proptest", &["test"]),
 ];
 
@@ -94,7 +95,7 @@ fn packages() -> Vec<(String, PathBuf)> {
         .unwrap()
         .map(|entry| entry.unwrap().path())
         .collect();
-    folders.extend([root().join("sandbox"), root().join("benches")]);
+    folders.extend(["sandbox", "benches", "benches/peers"].map(|folder| root().join(folder)));
     let mut out: Vec<(String, PathBuf)> = folders
         .into_iter()
         .filter(|folder| folder.join("Cargo.toml").exists())

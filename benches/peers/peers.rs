@@ -1,6 +1,6 @@
 //! The same problems by general solvers and by ours, in one run: the bars of the schemes.
 //!
-//! `cargo bench -p benches --bench peers` prints a table and the ratios. Peers get the very forces our schemes
+//! `cargo bench -p peers` prints a table and the ratios. Peers get the very forces our schemes
 //! get, as a system of first order, and each its best tolerance: the fastest run within 1e-3 counts. Setting up
 //! a peer's problem is not timed, setting up ours is.
 
