@@ -16,6 +16,9 @@ use crate::{
 /// The last stage may move an outline by so many pixels of the search, and at least by so many of the image.
 const REACH: f64 = 1.5;
 
+/// The last stage may lose so much of the mean strength of the edge.
+const LOST: f64 = 0.05;
+
 /// Nodes of an outline, one a pixel.
 const SPACING: f64 = 1.0;
 
@@ -52,7 +55,7 @@ pub(crate) fn found(prepared: &Prepared, start: &Contour) -> Result<Fit, FitErro
         .map_or(0.0, |curve| LEAST_AREA * curve.area());
     let (taken, instead, curve) = valid(&searched, least, start_curve.as_ref());
     let curve = clipped(curve, prepared.image().size());
-    let precise = precise(prepared, &curve, searched.pixel, least);
+    let precise = precise(prepared, &searched, &curve, least);
     let (points, normals, edge) = (precise.points, precise.normals, precise.edge);
     let outline = Polygon {
         points,
@@ -315,8 +318,14 @@ fn clipped(mut curve: Polygon, (width, height): (usize, usize)) -> Polygon {
     curve
 }
 
-/// The curve on its edge; as it was found where that would fold it.
-fn precise(prepared: &Prepared, curve: &Polygon, pixel: f64, least: f64) -> subpixel::Precise {
+/// The curve on its edge; as it was found where that would fold it, or where it would lose its edge.
+fn precise(
+    prepared: &Prepared,
+    searched: &search::Searched,
+    curve: &Polygon,
+    least: f64,
+) -> subpixel::Precise {
+    let pixel = searched.pixel;
     let spacing = match prepared.options().nodes {
         Nodes::Count(count) => (curve.length() / count.max(1) as f64).min(SPACING),
         Nodes::Every(_) | Nodes::Auto => SPACING,
@@ -327,10 +336,16 @@ fn precise(prepared: &Prepared, curve: &Polygon, pixel: f64, least: f64) -> subp
         rough: REACH * pixel.max(1.0),
     };
     let found = subpixel::refine(prepared.image().pixels(), curve, rules);
+    let before = searched.support(curve);
     let good = found.filter(|found| {
         let crossed = outline::crossings(&found.points, curve.closed);
+        let after = Polygon {
+            points: found.points.clone(),
+            closed: curve.closed,
+        };
         crossed.is_ok_and(|crossed| crossed.is_empty())
             && (!curve.closed || elastic::signed_area(&found.points) > least)
+            && searched.support(&after).edge > before.edge - LOST
     });
     let mut precise = good.unwrap_or_else(|| subpixel::as_found(curve, rules));
     let last = prepared.image().size();

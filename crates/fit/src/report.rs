@@ -34,9 +34,12 @@ pub struct Searched {
 fn name(search: Search) -> &'static str {
     match search {
         Search::Near => "near the start",
+        Search::Close => "close to the start",
+        Search::Loose => "loose from the start",
         Search::Wider => "a little beyond the start",
         Search::Within => "within the start",
         Search::Region => "by likeness to the inside",
+        Search::Again => "once more about it",
     }
 }
 

@@ -23,10 +23,26 @@ const LEAST: usize = POINTS / 4;
 pub struct Support {
     /// Strength of the edge that four fifths of the curve have at least: how closed it is. 0 … 1.
     pub closed: f64,
+    /// Strength of the edge that all but a twentieth of the curve have at least. 0 … 1.
+    pub weakest: f64,
     /// Mean strength of the edge. 0 … 1.
     pub edge: f64,
     /// Length of the mean of the edge's color directions: how much it is of one polarity. 0 … `edge`.
     pub polar: f64,
+}
+
+/// Share of the edge that must be of one polarity for the edge to count in full.
+const PURE: f64 = 0.7;
+
+impl Support {
+    /// How closed the edge is, less where it is of both polarities: the edges of one object are of one, as a rule.
+    pub(crate) fn whole(&self) -> f64 {
+        if self.edge > 0.0 {
+            self.closed * (self.polar / self.edge / PURE).min(1.0).sqrt()
+        } else {
+            0.0
+        }
+    }
 }
 
 /// What the picture says for a curve. With `cut` a curve needs no edge where it goes along the border of the picture:
@@ -49,6 +65,7 @@ pub(crate) fn support(view: &View, curve: &[DVec2], closed: bool, cut: bool) -> 
     if strengths.len() < LEAST {
         return Support {
             closed: 0.0,
+            weakest: 0.0,
             edge: 0.0,
             polar: 0.0,
         };
@@ -57,6 +74,7 @@ pub(crate) fn support(view: &View, curve: &[DVec2], closed: bool, cut: bool) -> 
     let edge = strengths.iter().sum::<f64>() / count;
     Support {
         closed: percentile(&mut strengths, 0.2),
+        weakest: percentile(&mut strengths, 0.05),
         edge,
         polar: size(sum) / count,
     }

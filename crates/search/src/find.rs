@@ -1,4 +1,4 @@
-//! Two searches from a start, and which of their curves the picture supports.
+//! The search about a start of any kind: closed or open, around its object or inside it.
 
 use std::sync::Arc;
 
@@ -7,25 +7,29 @@ use glam::DVec2;
 
 use crate::along::Polygon;
 use crate::around::around;
+use crate::choice::{ONE_POLARITY, about};
 use crate::evidence::{Support, strengths, support};
-use crate::flood::{flood, purity};
 use crate::line::find_line;
-use crate::near::near;
 use crate::rules::Rules;
 use crate::view::{Seen, View};
-use crate::within::{free, within};
 
 /// Which search a curve came from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Search {
     /// A band about the start, to which the curve is tethered.
     Near,
+    /// That band, tethered so that only much of an edge draws it from the start.
+    Close,
+    /// That band, with little of a tether.
+    Loose,
     /// That band and then, since the curve lay at its limits, a band about the result.
     Wider,
     /// All of the start's inside, along rays from its middle.
     Within,
     /// What is like the inside and joined to it.
     Region,
+    /// A narrow band about one of these curves.
+    Again,
 }
 
 /// A curve found.
@@ -90,33 +94,14 @@ impl Searched {
     }
 }
 
-/// By how much the curve along rays must be closed better than the one about the start, and a curve around the start
-/// better than both.
-const BETTER: f64 = 0.05;
+/// By how much a curve around the start must be closed better than all about it.
 const MUCH_BETTER: f64 = 0.1;
-
-/// Share of nodes at the limits from which on the band was too narrow, and how much better the mean edge of a
-/// curve beyond it must be.
-const LIMITED: f64 = 0.04;
-const BETTER_EDGE: f64 = 0.04;
 
 /// The start's inside is unlike its surroundings where their medians differ by this share of the spread of all.
 const PLAIN: f64 = 0.25;
 
-/// A part of a curve counts from this area on, in square pixels of the window.
-const LEAST_PART: f64 = 4.0;
-
-/// An edge is of one polarity where the mean of its directions is this share of its strength, and of none below the
-/// second.
-const ONE_POLARITY: f64 = 0.9;
+/// An edge is of no polarity where the mean of its directions is less than this share of its strength.
 const NO_POLARITY: f64 = 0.5;
-
-/// By how much more pixels must be told apart by a region than before, and by how much its edge may be weaker.
-const PURER: f64 = 0.03;
-const SLACK: f64 = 0.02;
-
-/// Strength of edge at which one polarity alone is enough.
-const STRONG: f64 = 0.5;
 
 /// Look for an outline about a start, open or closed. None for a start without area or length.
 #[must_use]
@@ -162,81 +147,4 @@ pub fn find(pixels: &dyn Pixels, start: &Polygon, rules: &Rules) -> Option<Searc
 fn is_outline(support: &Support, rules: &Rules) -> bool {
     support.closed > rules.sure
         || (support.closed > rules.unsure && support.polar > ONE_POLARITY * support.edge)
-}
-
-/// The searches about a start and within it, and the rule between them.
-fn about(pixels: &dyn Pixels, start: &Polygon, rules: &Rules) -> Option<Searched> {
-    let view = View::new(pixels, start, rules);
-    let found = |search, curve: &[DVec2]| {
-        let curve = simple(curve);
-        Found {
-            search,
-            points: curve.iter().map(|p| view.frame.to_picture(*p)).collect(),
-            support: support(&view, &curve, true, false),
-            window: curve,
-        }
-    };
-    let near = near(&view, rules)?;
-    let mut first = found(Search::Near, &near.points);
-    if near.limited > LIMITED {
-        let wider = found(Search::Wider, &free(&view, rules, near.points));
-        let (own, other) = (first.support, wider.support);
-        if other.edge > own.edge + BETTER_EDGE && other.closed > own.closed - 0.5 * BETTER_EDGE {
-            first = wider;
-        }
-    }
-    let own = first.support;
-    // beside the start there is already a closed edge, or one of a single polarity: stay
-    let enough = own.closed > rules.sure
-        || (own.closed > rules.unsure && own.edge > STRONG && own.polar > ONE_POLARITY * own.edge);
-    let mut list = vec![first];
-    let mut taken = 0;
-    // a part without an edge, though the rest has a strong one, may be cut off from the object by a corner of the start
-    let cornered = own.edge < own.closed - SLACK;
-    if (!enough || cornered)
-        && let Some(curve) = within(&view, rules)
-    {
-        let within = found(Search::Within, &curve);
-        let other = within.support;
-        let better = if enough {
-            other.edge > own.edge + BETTER_EDGE && other.closed > own.closed - SLACK
-        } else {
-            other.closed > own.closed + BETTER
-        };
-        taken = usize::from(better);
-        list.push(within);
-    }
-    // what no band can follow: only where the two sides are told apart by what they look like, and this curve does it
-    // better
-    let told = purity(&view, &view.inside(&list[taken].window));
-    if told < rules.pure
-        && rules.pure < 1.0
-        && let Some(curve) = flood(&view, rules, &list[taken].window)
-    {
-        let region = found(Search::Region, &curve);
-        let (own, other) = (list[taken].support, region.support);
-        let pure = purity(&view, &view.inside(&curve));
-        let better = pure > rules.pure && pure > told + PURER;
-        if better && other.closed > own.closed - SLACK && other.edge > own.edge - SLACK {
-            taken = list.len();
-        }
-        list.push(region);
-    }
-    Some(Searched::of(view, list, taken))
-}
-
-/// A curve without its loops: the largest part of one that crosses itself. Normals of a band may meet where it is wide
-/// against its bends, and a path through them then folds.
-fn simple(curve: &[DVec2]) -> Vec<DVec2> {
-    if outline::crossings(curve, true).is_ok_and(|found| found.is_empty()) {
-        return curve.to_vec();
-    }
-    let parts = outline::resolve(curve, LEAST_PART).ok();
-    let largest = parts.and_then(|parts| {
-        parts
-            .pieces
-            .into_iter()
-            .max_by(|a, b| a.area.total_cmp(&b.area))
-    });
-    largest.map_or_else(|| curve.to_vec(), |part| part.nodes)
 }

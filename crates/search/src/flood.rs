@@ -11,7 +11,7 @@ use crate::along::smoothed;
 use crate::edges::blurred;
 use crate::rules::Rules;
 use crate::view::View;
-use crate::within::free;
+use crate::within::{WIDTH, free};
 
 /// σ of the blur of the likelihood, in pixels of the window, and of the outline along itself.
 const SIGMA: f64 = 1.2;
@@ -48,7 +48,7 @@ pub(crate) fn flood(view: &View, rules: &Rules, curve: &[DVec2]) -> Option<Vec<D
     }
     let outline = border(&inside, view.frame.dim())?;
     let outline = smoothed(&outline, ALONG, true);
-    Some(free(view, rules, outline))
+    Some(free(view, rules, outline, WIDTH))
 }
 
 /// The pixels above 0 that are joined, in the part that holds most of what is inside; its holes filled.

@@ -24,6 +24,7 @@
 pub mod along;
 mod around;
 mod band;
+mod choice;
 mod click;
 mod codebook;
 mod edges;

@@ -28,7 +28,8 @@ pub(crate) struct Near {
     pub limited: f64,
 }
 
-pub(crate) fn near(view: &View, rules: &Rules) -> Option<Near> {
+/// With `tether` as the price of a curve one radius from the start.
+pub(crate) fn near(view: &View, rules: &Rules, tether: f64) -> Option<Near> {
     let r = view.radius;
     let (from, to) = (-rules.inward * r, rules.outward * r);
     let band = Band::along(&view.start, NODES, (from, to), STEP);
@@ -46,7 +47,7 @@ pub(crate) fn near(view: &View, rules: &Rules) -> Option<Near> {
             let away = (from + k as f64 * STEP) / r;
             let across = view.edges.across(p, normal);
             let slope = unsigned * size(across) + (1.0 - unsigned) * view.signed(across).max(0.0);
-            rules.tether * away * away - view.edges.strength(slope)
+            tether * away * away - view.edges.strength(slope)
         });
         let path = costs.closed_path(steps)?;
         inside = view.inside(&band.curve(&path));

@@ -17,7 +17,7 @@ pub enum Sign {
 /// How a search goes. Lengths are in radii of a disk of the start's area, prices in edges as strong as there can be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rules {
-    /// Price of an outline one radius from the start.
+    /// Price of an outline one radius from the start. It is looked for with ten times and a third of that too.
     pub tether: f64,
     /// What it is worth to take in a tenth of a radius of pixels that are e times likelier inside than outside.
     pub region: f64,

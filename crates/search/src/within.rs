@@ -29,7 +29,7 @@ const SETTLED: usize = 4;
 /// The bands about a curve that is found: nodes a pixel, half width in radii of the start.
 const SPACING: f64 = 1.0;
 const FIRST_WIDTH: f64 = 0.1;
-const WIDTH: f64 = 0.2;
+pub(crate) const WIDTH: f64 = 0.2;
 const FREE_STEPS: Steps = Steps {
     bend: 0.02,
     reach: 4,
@@ -77,18 +77,18 @@ pub(crate) fn within(view: &View, rules: &Rules) -> Option<Vec<DVec2>> {
         -signed_strength(view, p, normal, polarity[i]) - rules.outer * away
     });
     let curve = band.curve(&costs.closed_path(steps)?);
-    Some(free(view, rules, curve))
+    Some(free(view, rules, curve, WIDTH))
 }
 
 /// The best curve in a band about one that is found, unrolled again about its own result: what leaves the rays, as legs
-/// and horns do, is entered.
+/// and horns do, is entered. The band is `width` radii of the start wide on either side.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "the length of a curve in a window of some hundred pixels"
 )]
-pub(crate) fn free(view: &View, rules: &Rules, mut curve: Vec<DVec2>) -> Vec<DVec2> {
-    let wide = WIDTH * view.radius;
+pub(crate) fn free(view: &View, rules: &Rules, mut curve: Vec<DVec2>, width: f64) -> Vec<DVec2> {
+    let wide = width * view.radius;
     for _ in 0..FREE_ROUNDS {
         let likelihood = view.likelihood(&view.inside(&curve));
         let polygon = Polygon {

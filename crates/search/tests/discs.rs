@@ -54,17 +54,19 @@ fn off(points: &[DVec2]) -> f64 {
 #[test]
 fn it_is_found_from_near_from_outside_and_from_inside() {
     let shift = DVec2::new(2.0, -1.0);
-    for (start, search, around) in [
-        (circle(CENTER + shift, 1.1 * RADIUS), Search::Near, false),
-        (circle(CENTER - shift, 0.96 * RADIUS), Search::Near, false),
-        (circle(CENTER + shift, 1.6 * RADIUS), Search::Within, false),
-        (circle(CENTER - shift, 0.45 * RADIUS), Search::Near, true),
+    for (start, beside, around) in [
+        (circle(CENTER + shift, 1.1 * RADIUS), true, false),
+        (circle(CENTER - shift, 0.96 * RADIUS), true, false),
+        (circle(CENTER + shift, 1.6 * RADIUS), false, false),
+        (circle(CENTER - shift, 0.45 * RADIUS), true, true),
     ] {
         let found = find(&picture(|v| v), &start, &Rules::default()).unwrap();
         let far = off(&found.taken().points);
-        // the last stage goes on from within two pixels
-        assert!(far < 2.0, "{far} {found:?}");
-        assert_eq!((found.taken().search, found.around), (search, around));
+        // an edge counts in full within 1.5 pixels of the window, so a start as near draws the curve to it; the last
+        // stage goes on from there
+        assert!(far < 3.0, "{far}");
+        let near = matches!(found.taken().search, Search::Near | Search::Close);
+        assert_eq!((near, found.around), (beside, around));
         assert!(found.taken().support.closed > 0.46);
     }
 }

@@ -1,10 +1,10 @@
 //! The way from an outline that may be several pixels off to within reach of the edge.
 
-use field::Pixels;
 use glam::DVec2;
 use search::along::{Polygon, smoothed};
 use search::path::{Costs, Steps};
 
+use crate::blocks::Blocks;
 use crate::patch::Patch;
 use crate::profile::{Beside, Profiles, SAMPLE};
 
@@ -20,7 +20,7 @@ const BEND: f64 = 0.05;
 
 /// The best path within `reach` of an outline through slopes of one polarity a stretch.
 pub(crate) fn nearer(
-    pixels: &dyn Pixels,
+    pixels: Blocks<'_>,
     patch: &Patch<'_>,
     curve: &Polygon,
     reach: f64,

@@ -8,6 +8,7 @@
 //!   and outside, smoothed along the curve, and one σ for the whole outline, the one under which the
 //!   profiles are best explained. The pull on a node is the slope of the likelihood of such a step,
 //!   its stiffness the Fisher information.
+//! - **Blur.** An edge that is blurred over more than two pixels is read in blocks of two, four or eight.
 //! - **Body.** Rigidity, out of a rest shape that is the outline itself without its short waves. How
 //!   stiff it is follows from the picture by generalised cross-validation (\[craven79\],
 //!   with the factor of \[kim04\]): noisy edges are smoothed over more pixels than clear ones.
@@ -21,6 +22,7 @@
 //! Units: pixels, the first pixel's center at (0, 0). O(length of the outline); the rest of the
 //! picture is not looked at.
 
+mod blocks;
 mod coarse;
 mod normal;
 mod patch;

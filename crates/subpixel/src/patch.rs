@@ -1,7 +1,8 @@
 //! The part of a picture around an outline, for many looks at the same pixels.
 
-use field::Pixels;
 use glam::DVec2;
+
+use crate::blocks::Blocks;
 
 /// The most pixels that are copied, per node of the outline.
 const MOST_A_NODE: usize = 256;
@@ -14,8 +15,8 @@ pub(crate) enum Patch<'a> {
 
 /// Pixels of a part of a picture: copied if there are few of them for the length of the outline.
 pub(crate) struct Part<'a, const N: usize> {
-    pixels: &'a dyn Pixels,
-    at: fn(&dyn Pixels, usize, usize) -> [f64; N],
+    pixels: Blocks<'a>,
+    at: fn(&Blocks<'a>, usize, usize) -> [f64; N],
     left: usize,
     top: usize,
     width: usize,
@@ -25,29 +26,19 @@ pub(crate) struct Part<'a, const N: usize> {
 
 impl<'a> Patch<'a> {
     /// The pixels within `reach` of an outline.
-    pub(crate) fn around(pixels: &'a dyn Pixels, points: &[DVec2], reach: f64) -> Self {
+    pub(crate) fn around(pixels: Blocks<'a>, points: &[DVec2], reach: f64) -> Self {
         if pixels.is_color() {
-            Self::Color(Part::around(
-                pixels,
-                |pixels, x, y| pixels.color(x, y),
-                points,
-                reach,
-            ))
+            Self::Color(Part::around(pixels, Blocks::color, points, reach))
         } else {
-            Self::Grey(Part::around(
-                pixels,
-                |pixels, x, y| [pixels.level(x, y)],
-                points,
-                reach,
-            ))
+            Self::Grey(Part::around(pixels, Blocks::level, points, reach))
         }
     }
 }
 
 impl<'a, const N: usize> Part<'a, N> {
     fn around(
-        pixels: &'a dyn Pixels,
-        at: fn(&dyn Pixels, usize, usize) -> [f64; N],
+        pixels: Blocks<'a>,
+        at: fn(&Blocks<'a>, usize, usize) -> [f64; N],
         points: &[DVec2],
         reach: f64,
     ) -> Self {
@@ -77,7 +68,7 @@ impl<'a, const N: usize> Part<'a, N> {
         if width.saturating_mul(height) <= MOST_A_NODE.saturating_mul(points.len()) {
             let rows = top..=bottom;
             part.copied = rows
-                .flat_map(|y| (left..=right).map(move |x| at(pixels, x, y)))
+                .flat_map(|y| (left..=right).map(move |x| at(&pixels, x, y)))
                 .collect();
         }
         part
@@ -90,7 +81,7 @@ impl<'a, const N: usize> Part<'a, N> {
                 return self.copied[j * self.width + i];
             }
         }
-        (self.at)(self.pixels, x, y)
+        (self.at)(&self.pixels, x, y)
     }
 
     /// The picture between its pixels by cubic convolution (\[keys81\], a = −1/2); beyond the border the

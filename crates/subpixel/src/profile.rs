@@ -1,9 +1,9 @@
 //! A picture along the normals of a curve: one row of levels a node, from the inside out.
 
-use field::Pixels;
 use glam::DVec2;
 use search::along::smoothed;
 
+use crate::blocks::Blocks;
 use crate::patch::{Part, Patch, clamped};
 
 /// Pixels from one sample of a profile to the next.
@@ -27,7 +27,7 @@ impl Profiles {
     /// Sample the normals of a curve from −`reach` to `reach`. A color picture is seen along the direction from the
     /// mean color outside to that inside, node by node.
     pub(crate) fn of(
-        pixels: &dyn Pixels,
+        pixels: Blocks<'_>,
         patch: &Patch<'_>,
         points: &[DVec2],
         normals: &[DVec2],
@@ -71,10 +71,11 @@ impl Profiles {
         }
         let whole = (0..points.len()).map(|i| {
             let place = |k: usize| points[i] + offset(k) * normals[i];
-            finite[i]
-                && pixels
-                    .valid()
-                    .is_none_or(|valid| (0..count).all(|k| valid[nearest(valid.dim(), place(k))]))
+            let counts = |k: usize| {
+                let (x, y) = nearest(pixels.size(), place(k));
+                pixels.counts(x, y)
+            };
+            finite[i] && (0..count).all(counts)
         });
         Self {
             levels,
@@ -173,6 +174,6 @@ impl Beside {
     }
 }
 
-fn nearest((height, width): (usize, usize), p: DVec2) -> (usize, usize) {
-    (clamped(p.y.round(), height), clamped(p.x.round(), width))
+fn nearest((width, height): (usize, usize), p: DVec2) -> (usize, usize) {
+    (clamped(p.x.round(), width), clamped(p.y.round(), height))
 }

@@ -4,6 +4,7 @@ use field::Pixels;
 use glam::DVec2;
 use search::along::Polygon;
 
+use crate::blocks::Blocks;
 use crate::coarse::nearer;
 use crate::patch::Patch;
 use crate::profile::{Beside, Profiles};
@@ -18,6 +19,10 @@ const SURE_ROUNDS: usize = 2;
 const DOUBT: f64 = 0.92;
 const TRUST: f64 = 0.97;
 
+/// Share of an outline that must be followed, and in blocks of several pixels: what is not sharp is followed only where it is clear.
+const HALF: f64 = 0.5;
+const MOST: f64 = 0.8;
+
 /// A coarse search comes first where the edge may be farther than this. Pixels.
 const NEAR: f64 = 1.5;
 
@@ -29,6 +34,15 @@ const LEAST_INFORMATION: f64 = 1e-3;
 
 /// The blur to begin with, by its number.
 const FIRST_BLUR: usize = 4;
+
+/// Sides of the blocks that an edge is read in, in pixels; the least blur of one that is read in blocks of several, in
+/// blocks; the most, in radii of a disk of the same area and length; how much farther than its blur an outline may be
+/// moved, in blocks; the least distance of nodes, in blocks.
+const SIDES: [usize; 4] = [1, 2, 4, 8];
+const LEAST_IN_BLOCKS: f64 = 1.0;
+const WIDEST: f64 = 0.35;
+const NEARER: f64 = 0.5;
+const FINEST: f64 = 0.25;
 
 /// Nodes at least and at most.
 const NODES: [f64; 2] = [24.0, 6000.0];
@@ -75,12 +89,62 @@ pub struct Blurred {
 #[must_use]
 pub fn refine(pixels: &dyn Pixels, outline: &Polygon, rules: Rules) -> Option<Precise> {
     let outline = outline.clone().outwards();
-    let closed = outline.closed;
-    let length = outline.length();
-    if length <= 0.0 || !length.is_finite() {
+    if outline.length() <= 0.0 || !outline.length().is_finite() {
         return None;
     }
-    let found = nodes(&outline, rules);
+    for side in SIDES {
+        let blocks = Blocks::of(pixels, side);
+        let size = side as f64;
+        let rules = if side == 1 {
+            rules
+        } else {
+            Rules {
+                reach: (rules.reach / size).max(NEAR),
+                spacing: (rules.spacing / size).max(FINEST),
+                rough: (rules.rough / size).max(NEAR),
+            }
+        };
+        let begun = Polygon {
+            points: outline
+                .points
+                .iter()
+                .map(|p| blocks.to_blocks(*p))
+                .collect(),
+            closed: outline.closed,
+        };
+        let found = read(blocks, &begun, rules);
+        // an edge that is sharp in blocks was not left before for its blur, and none is as wide as its object
+        let most = if outline.closed {
+            WIDEST * 2.0 * outline.area() / outline.length()
+        } else {
+            f64::INFINITY
+        };
+        let wide = |edge: Blurred| edge.blur > LEAST_IN_BLOCKS && size * edge.blur < most;
+        let blurred = |found: &Precise| {
+            let stayed = |edge: Blurred| moved(&begun, found, rules) < edge.blur + NEARER;
+            side == 1 || found.edge.is_some_and(|edge| wide(edge) && stayed(edge))
+        };
+        if let Some(found) = found.filter(blurred) {
+            return Some(found.in_picture(blocks, size));
+        }
+    }
+    Some(as_found(&outline, rules))
+}
+
+/// How far the nodes of an outline were moved, in the mean.
+fn moved(outline: &Polygon, found: &Precise, rules: Rules) -> f64 {
+    let before = nodes(outline, rules).points;
+    let ways = before
+        .iter()
+        .zip(&found.points)
+        .map(|(a, b)| a.distance(*b));
+    ways.sum::<f64>() / before.len() as f64
+}
+
+/// Read an edge, and come to rest on it; None where there is none that could be read.
+fn read(pixels: Blocks<'_>, outline: &Polygon, rules: Rules) -> Option<Precise> {
+    let (length, closed) = (outline.length(), outline.closed);
+    let found = nodes(outline, rules);
     let count = found.points.len();
     let spacing = length / count as f64;
     let patch = Patch::around(pixels, &found.points, 2.0 * rules.reach + PLATEAU + 6.0);
@@ -126,8 +190,9 @@ pub fn refine(pixels: &dyn Pixels, outline: &Polygon, rules: Rules) -> Option<Pr
                 .collect()
         };
         let trusted = trust.iter().sum::<f64>() / count as f64;
-        if trusted < 0.5 || (round >= SURE_ROUNDS && blur + 1 == BLURS.len()) {
-            return Some(as_found(&outline, rules));
+        let needed = if pixels.side() == 1 { HALF } else { MOST };
+        if trusted < needed || (round >= SURE_ROUNDS && blur + 1 == BLURS.len()) {
+            return None;
         }
         let length = stage
             .as_ref()
@@ -145,9 +210,7 @@ pub fn refine(pixels: &dyn Pixels, outline: &Polygon, rules: Rules) -> Option<Pr
             closed,
             length,
         );
-        let Some(rest) = rest else {
-            return Some(as_found(&outline, rules));
-        };
+        let rest = rest?;
         points.clone_from(&rest.points);
         stage = Some(Stage {
             reading,
@@ -157,6 +220,26 @@ pub fn refine(pixels: &dyn Pixels, outline: &Polygon, rules: Rules) -> Option<Pr
         });
     }
     Some(stage?.finished(BLURS[blur], spacing, closed))
+}
+
+impl Precise {
+    /// What was found in blocks of that size, in the picture.
+    fn in_picture(mut self, blocks: Blocks<'_>, size: f64) -> Self {
+        self.points
+            .iter_mut()
+            .for_each(|p| *p = blocks.to_picture(*p));
+        self.errors
+            .iter_mut()
+            .flatten()
+            .for_each(|error| *error *= size);
+        if let Some(edge) = &mut self.edge {
+            edge.blur = blocks.blur(edge.blur);
+            // blocks hold the mean of noise that is independent from pixel to pixel
+            edge.noise *= size;
+            edge.length *= size;
+        }
+        self
+    }
 }
 
 /// Where a round begins.
