@@ -23,15 +23,14 @@ fn circle() -> Contour {
 /// σ and by the pixels, the tether, the tension.
 fn by_hand(stretches: usize, kick: f64) -> f64 {
     let variance: f64 = 10.0 + 1.0 / 12.0;
-    let count = 376;
-    let spacing = std::f64::consts::TAU * RADIUS / f64::from(count);
+    let n = 376;
+    let spacing = std::f64::consts::TAU * RADIUS / n as f64;
     let edge = 720.0 / (std::f64::consts::TAU * variance.powi(3)).sqrt();
     let pull = |u: f64| -edge * u * (-0.5 * u * u / variance).exp();
     let (tether, tension) = (
         0.05 * 720.0 / (std::f64::consts::TAU * 1000.0).sqrt(),
         0.05 * 7200.0 / (std::f64::consts::TAU * 1000.0).sqrt(),
     );
-    let n = count as usize;
     let wide = n as f64 / stretches as f64;
     let bump: Vec<f64> = (0..n)
         .map(|i| {

@@ -14,7 +14,7 @@
 //! # Ok::<(), io::IoError>(())
 //! ```
 
-pub mod animation;
+mod animation;
 mod claims;
 mod error;
 pub mod limits;

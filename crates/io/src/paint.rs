@@ -1,4 +1,4 @@
-//! Grids and curves as pictures: plain raster, written as PNG.
+//! Grids and curves as pictures: plain raster, written as PNG; curves that move, as GIF.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -7,6 +7,7 @@ use field::Grid;
 use glam::DVec2;
 use image::{ImageFormat, Rgb, RgbImage};
 
+pub use crate::animation::{Animation, Stroke};
 use crate::picture::as_u32;
 use crate::write::write_whole;
 use crate::{IoError, Picture};

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use glam::DVec2;
-use io::animation::{Animation, Stroke};
+use io::paint::{Animation, Stroke};
 use io::record::{Curve, Ending, Frame, Record};
 use io::{IoError, Picture};
 use scene::fit::{Choices, Fit, Session};
@@ -57,7 +57,7 @@ impl Moments {
     pub(super) fn see(&mut self, session: &Session, last: bool) {
         let step = session.steps();
         let kept = self.list.last().is_some_and(|last| last.step == step);
-        if kept || (step % self.every > 0 && !last) {
+        if kept || (!step.is_multiple_of(self.every) && !last) {
             return;
         }
         self.list.push(Moment {
@@ -68,7 +68,7 @@ impl Moments {
         if self.list.len() > MOST && !last {
             self.every *= 2;
             let every = self.every;
-            self.list.retain(|moment| moment.step % every == 0);
+            self.list.retain(|moment| moment.step.is_multiple_of(every));
         }
     }
 }

@@ -63,8 +63,16 @@ fn single(flags: &Flags, image: &Path, words: Words) -> Answer {
         return Err(key("--record", message));
     }
     let sheet = Sheet::of(flags.sheet.as_ref())?;
+    let more = [("--record", &flags.record), ("--measure", &flags.measure)];
+    let more = more
+        .iter()
+        .filter_map(|(flag, path)| Some((*flag, path.as_deref()?)));
+    let mut outputs = wanted
+        .iter()
+        .map(|(flag, wanted)| (*flag, wanted.path()))
+        .chain(more);
     if words.json
-        && let Some((flag, _)) = wanted.iter().find(|(_, wanted)| is_standard(wanted.path()))
+        && let Some((flag, _)) = outputs.find(|(_, path)| is_standard(path))
     {
         let message = format!("writes to standard output, and so does {flag}; give {flag} a file");
         return Err(key("--json", message));
