@@ -9,7 +9,7 @@
 
 mod common;
 
-use common::fits::{CENTER, RADIUS, SIZE, START, blank, faded, json, near, text};
+use common::fits::{CENTER, RADIUS, SIZE, START, blank, json, near, soft, text};
 use common::{Folder, disc};
 #[test]
 fn a_page_has_what_was_refused_first_and_then_the_least_sure() {
@@ -18,7 +18,8 @@ fn a_page_has_what_was_refused_first_and_then_the_least_sure() {
     folder.write("in/a_sharp.pgm", disc(SIZE, CENTER, RADIUS));
     folder.write("in/b_blank.pgm", blank());
     folder.write("in/c_broken.png", b"\x89PNG\r\n\x1a\nnothing more");
-    folder.write("in/d_faded.pgm", faded());
+    folder.write("in/d_soft.pgm", soft(9.0));
+    folder.write("in/e_softer.pgm", soft(16.0));
     let args = [
         "fit",
         "in",
@@ -34,12 +35,12 @@ fn a_page_has_what_was_refused_first_and_then_the_least_sure() {
     let page = text(&folder, "s.html");
     let at = |part: &str| page.find(part).unwrap_or(usize::MAX);
     let order = [
-        "<h1>Outlines of 4 pictures</h1>",
+        "<h1>Outlines of 5 pictures</h1>",
         ">Refused (1)</h2>",
         "c_broken.png</strong>: ",
         ">Unsure (1)</h2>",
         "<h3>b_blank.pgm</h3>",
-        ">Found (2)</h2>",
+        ">Found (3)</h2>",
     ];
     assert!(
         order.map(at).is_sorted() && at(order[5]) < page.len(),
@@ -48,18 +49,18 @@ fn a_page_has_what_was_refused_first_and_then_the_least_sure() {
     let strengths = page.split("<dt>edge of four fifths</dt><dd>").skip(1);
     let strengths: Vec<f64> = strengths.map(|rest| rest[..4].parse().unwrap()).collect();
     assert!(
-        strengths.is_sorted() && strengths.len() == 3,
+        strengths.is_sorted() && strengths.len() == 4 && strengths[3] > strengths[1],
         "{strengths:?}"
     );
-    assert_eq!(page.matches("<img ").count(), 3);
-    assert_eq!(page.matches("src=\"data:image/").count(), 3);
+    assert_eq!(page.matches("<img ").count(), 4);
+    assert_eq!(page.matches("src=\"data:image/").count(), 4);
     assert!(page.contains("alt=\"a_sharp.pgm with its starts and outlines: found\""));
     assert!(page.contains("<dt>on an edge</dt><dd>100 %</dd>"));
     // whatever the number of threads, and with what was there already named as such
     let again = folder.snake(&[&args[..], &["--jobs", "1"]].concat());
     assert_eq!((again.code, text(&folder, "s.html")), (Some(1), page));
     folder.snake(&[&args[..], &["--resume"]].concat());
-    assert!(text(&folder, "s.html").contains(">There already (3)</h2>"));
+    assert!(text(&folder, "s.html").contains(">There already (4)</h2>"));
     // one picture has a page too
     let one = folder.snake(&[
         "fit",

@@ -97,6 +97,27 @@ fn how_an_outline_was_found_is_shown_and_recorded() {
     ]);
     assert_eq!(other.code, Some(0));
     assert!(text(&folder, "r.csv").starts_with("# record 1, closed, "));
+    // of thousands of steps every so many, and the end
+    let long = [
+        "fit", "d.pgm", "--from", START, "--dt", "0.004", "-o", "l.csv",
+    ];
+    let slow = folder.snake(&[&long[..], &["--record", "l.jsonl"]].concat());
+    assert_eq!(slow.code, Some(0), "{}", slow.err);
+    let record = text(&folder, "l.jsonl");
+    let steps: Vec<u64> = record
+        .lines()
+        .skip(1)
+        .map(|line| json(line)["step"].as_u64().unwrap())
+        .collect();
+    let (ended, last) = (steps[steps.len() - 1], steps[steps.len() - 2]);
+    assert!(
+        ended > 1000 && ended == last && steps.len() < 1004,
+        "{ended}"
+    );
+    let every = steps[1] - steps[0];
+    let even = |two: &[u64]| two[1] - two[0] == every;
+    assert!(every > 1 && steps[..steps.len() - 2].windows(2).all(even));
+    assert!(!last.is_multiple_of(every), "{last}");
     // in a folder too
     let all = folder.snake(&[
         "fit",

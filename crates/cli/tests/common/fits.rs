@@ -43,3 +43,17 @@ pub(crate) fn near(value: &Value, number: f64) -> bool {
         .as_f64()
         .is_some_and(|value| (value - number).abs() < 1e-9)
 }
+
+/// The disc, its border softened over so many pixels.
+pub(crate) fn soft(pixels: f64) -> Vec<u8> {
+    let mut bytes = format!("P5 {SIZE} {SIZE} 255\n").into_bytes();
+    for at in 0..SIZE * SIZE {
+        let (dx, dy) = (
+            (at % SIZE) as f64 - CENTER[0],
+            (at / SIZE) as f64 - CENTER[1],
+        );
+        let share = ((RADIUS - dx.hypot(dy)) / pixels + 0.5).clamp(0.0, 1.0);
+        bytes.push((60.0 + 140.0 * share).round() as u8);
+    }
+    bytes
+}
