@@ -46,7 +46,7 @@ fn a_page_has_what_was_refused_first_and_then_the_least_sure() {
         order.map(at).is_sorted() && at(order[5]) < page.len(),
         "{answer:?}"
     );
-    let strengths = page.split("<dt>edge of four fifths</dt><dd>").skip(1);
+    let strengths = page.split("<dt>edge on four fifths</dt><dd>").skip(1);
     let strengths: Vec<f64> = strengths.map(|rest| rest[..4].parse().unwrap()).collect();
     assert!(
         strengths.is_sorted() && strengths.len() == 4 && strengths[3] > strengths[1],

@@ -1,9 +1,9 @@
 //! How firmly an image holds an outline: parts of it are moved aside, and what comes back is measured.
 //!
 //! A stretch of the outline is moved along its normals by a smooth bump and let go as a snake whose rest shape is the
-//! moved curve: left alone it would stay where it was put. Its tether is a twentieth of the stiffness of an edge as
-//! high as the image's contrast, so that such an edge brings back 93 % of the bump, one of a twentieth of it half, and
-//! no edge nothing. Both ways are tried; the rest of the unmoved outline, tethered to itself, is where both count from.
+//! moved curve: left alone it would stay where it was put. Each node is tied to its place there by a spring, a twentieth
+//! as stiff as an edge as high as the image's contrast, so that such an edge brings back 93 % of the bump, one of a
+//! twentieth of it half, and no edge nothing. Both ways are tried; the rest of the unmoved outline, tethered to itself, is where both count from.
 
 use std::f64::consts::PI;
 use std::fmt;
@@ -12,7 +12,7 @@ use std::ops::{ControlFlow, Range};
 use elastic::{End, Material, Topology};
 use glam::DVec2;
 use integrator::State;
-use snake::{Body, Outcome, Rest, Simulation, Snake, Until};
+use snake::{Body, Freeze, Outcome, Rest, Simulation, Snake, Until};
 
 use crate::evidence::normals;
 use crate::force::{NORMAL_AT_0, NORMAL_AT_1, PULL};
@@ -27,7 +27,7 @@ const STRETCH: f64 = 8.0;
 const LEAST: f64 = 4.0;
 const MOST: f64 = 64.0;
 
-/// Tether of the plucked curve against the stiffness of an edge as high as the image's contrast.
+/// Stiffness of the springs of the plucked curve against the stiffness of an edge as high as the image's contrast.
 const SOFT: f64 = 0.05;
 
 /// Steps to rest at most; what then, or to and fro, moves less than this share of the kick rests, the former in so many
@@ -334,12 +334,15 @@ impl Curve<'_> {
         };
         // neighbours hold together over the σ that the image is seen with
         let sigma = prepared.options().sigma;
-        let material = Material::uniform(self.tether, self.tether * sigma * sigma, 0.0);
+        let material = Material::uniform(0.0, self.tether * sigma * sigma, 0.0);
         let body = Body::of(shape, topology, 1.0)
             .map_err(unfit)?
             .with_material(material)
             .with_damping(prepared.options().damping);
-        let world = bordered(prepared.world(shape, self.closed)?, prepared)?;
+        // a spring from each node to its place: the tether of a body would let it drift away as a whole
+        let places = Freeze::new(shape, 0..shape.len(), self.tether).map_err(unfit)?;
+        let world = prepared.world(shape, self.closed)?.with(places);
+        let world = bordered(world, prepared)?;
         let snake = Snake::new(body, world).map_err(unfit)?;
         let (stepping, _) = stepping(prepared, &snake)?;
         let begun = Simulation::of(snake, State::at_rest(shape.to_vec()), stepping);

@@ -117,6 +117,21 @@ fn in_a_blank_image_everything_stays_where_it_is_put() {
 }
 
 #[test]
+fn a_loose_outline_does_not_drift_away_as_a_whole() {
+    // a short line across the edge, which has nothing to rest on
+    let across = Contour::open(vec![
+        CENTER + DVec2::new(0.0, -36.0),
+        CENTER + DVec2::new(-1.0, -2.0),
+    ]);
+    let found = plucked(disc(CENTER, RADIUS), &across, &Options::default());
+    for stretch in &found.stretches {
+        for way in [stretch.outward, stretch.inward] {
+            assert!(way.unwrap().abs() < 1.5, "{stretch:?}");
+        }
+    }
+}
+
+#[test]
 fn an_outline_between_two_edges_runs_away() {
     // half way between the two sides of a bright ring: each kick falls to the nearer side
     let ring = drawn((97, 91), |p| (p.distance(CENTER) - RADIUS).abs() < 5.0);

@@ -183,7 +183,7 @@ fn card(name: &Path, found: &[Found], unsure: usize, worst: Option<&Found>) -> C
     if let Some(one) = worst {
         let measured = one.measured;
         fact(
-            "edge of four fifths",
+            "edge on four fifths",
             measured.closed.map(|v| format!("{v:.2}")),
         );
         fact(
@@ -200,7 +200,7 @@ fn card(name: &Path, found: &[Found], unsure: usize, worst: Option<&Found>) -> C
             firm.map(|v| format!("{:.0} %", 100.0 * v)),
         );
     }
-    let title = name
+    let title = io::called(name)
         .file_name()
         .unwrap_or_default()
         .to_string_lossy()
