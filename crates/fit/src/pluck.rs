@@ -2,8 +2,9 @@
 //!
 //! A stretch of the outline is moved along its normals by a smooth bump and let go as a snake whose rest shape is the
 //! moved curve: left alone it would stay where it was put. Each node is tied to its place there by a spring, a twentieth
-//! as stiff as an edge as high as the image's contrast, so that such an edge brings back 93 % of the bump, one of a
-//! twentieth of it half, and no edge nothing. Both ways are tried; the rest of the unmoved outline, tethered to itself, is where both count from.
+//! as stiff as an edge as high as the image's contrast, so that such an edge brings back 94 % of the bump, one of a
+//! twentieth of it about 40 %, and no edge nothing. Both ways are tried; the rest of the unmoved outline, tied to itself, is
+//! where both count from.
 
 use std::f64::consts::PI;
 use std::fmt;

@@ -19,13 +19,13 @@ fn circle() -> Contour {
     Contour::circle(CENTER, RADIUS)
 }
 
-/// The same on a ring by its energy alone, node by node and with small steps: the edge of a disc blurred by the force's
-/// σ and by the pixels, the tether, the tension.
-fn by_hand(stretches: usize, kick: f64) -> f64 {
+/// What comes back on a ring by its energy alone, node by node and with small steps: the edge of a disc blurred by the force's
+/// σ and by the pixels, of this share of the contrast; the springs, the tension.
+fn by_hand(stretches: usize, kick: f64, share: f64) -> f64 {
     let variance: f64 = 10.0 + 1.0 / 12.0;
     let n = 376;
     let spacing = std::f64::consts::TAU * RADIUS / n as f64;
-    let edge = 720.0 / (std::f64::consts::TAU * variance.powi(3)).sqrt();
+    let edge = share * 720.0 / (std::f64::consts::TAU * variance.powi(3)).sqrt();
     let pull = |u: f64| -edge * u * (-0.5 * u * u / variance).exp();
     let (tether, tension) = (
         0.05 * 720.0 / (std::f64::consts::TAU * 1000.0).sqrt(),
@@ -60,7 +60,7 @@ fn by_hand(stretches: usize, kick: f64) -> f64 {
 fn a_sharp_disc_is_firm_all_round_and_by_as_much_as_its_energy_says() {
     let found = plucked(disc(CENTER, RADIUS), &circle(), &Options::default());
     assert_eq!(found.stretches.len(), 12);
-    let expected = by_hand(12, 2.0);
+    let expected = by_hand(12, 2.0, 1.0);
     for stretch in &found.stretches {
         let firmness = stretch.firmness().unwrap();
         assert!((firmness - expected).abs() < 0.03, "{firmness} {expected}");
@@ -73,6 +73,23 @@ fn a_sharp_disc_is_firm_all_round_and_by_as_much_as_its_energy_says() {
         next = stretch.points.end;
     }
     assert_eq!(next, circle().points.len());
+}
+
+#[test]
+fn a_weak_edge_beside_a_strong_one_is_as_firm_as_its_energy_says() {
+    // a bright strip at the side, which is all there is of the contrast
+    for (share, told) in [(0.1, 0.6), (0.05, 0.4)] {
+        let mut levels = disc(CENTER, RADIUS).mapv(|level| DARK + share * (level - DARK));
+        let strip = levels.indexed_iter_mut().filter(|((_, x), _)| *x < 3);
+        strip.for_each(|(_, level)| *level = BRIGHT);
+        let found = plucked(levels, &circle(), &Options::default());
+        let expected = by_hand(12, 2.0, share);
+        assert!((expected - told).abs() < 0.06, "{expected}");
+        for stretch in &found.stretches {
+            let firmness = stretch.firmness().unwrap();
+            assert!((firmness - expected).abs() < 0.05, "{firmness} {expected}");
+        }
+    }
 }
 
 #[test]
