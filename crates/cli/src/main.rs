@@ -5,6 +5,7 @@
 
 mod args;
 mod commands;
+mod crop;
 mod eval;
 mod fit;
 mod manual;

@@ -59,6 +59,8 @@ pub enum OptionKey {
     Search(&'static str),
     /// The spring of [`Edit::Pull`](crate::Edit::Pull).
     Pull,
+    /// [`Pluck::kick`](crate::Pluck::kick).
+    Kick,
     /// A force of [`Options::forces`](crate::Options::forces), by its index, and which value of it.
     Force(usize, ForceKey),
 }
@@ -81,6 +83,7 @@ impl fmt::Display for OptionKey {
             Self::Steps => "steps",
             Self::Search(name) => name,
             Self::Pull => "pull",
+            Self::Kick => "kick",
             Self::Force(index, ForceKey::All) => return write!(f, "force {index}"),
             Self::Force(index, key) => return write!(f, "force {index}, {}", key.word()),
         };

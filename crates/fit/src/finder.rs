@@ -86,6 +86,11 @@ pub(crate) fn found(prepared: &Prepared, start: &Contour) -> Result<Fit, FitErro
             .iter()
             .map(|found| (found.search, found.support))
             .collect(),
+        curves: searched
+            .found
+            .iter()
+            .map(|found| found.points.clone())
+            .collect(),
         taken,
         instead,
         around: searched.around,

@@ -29,6 +29,7 @@
 //! | many contours in one image | [`Prepared`], which makes its forces once |
 //! | many of them on several threads | [`fit_many`] |
 //! | a curve that is watched, pulled, pinned | [`Session`] |
+//! | how firmly the image holds an outline, part by part | [`Prepared::pluck`] |
 //! | other forces than the edge force | [`force::ImageForceKind`] in [`Options::forces`] |
 //! | pixels of other depths, colors, masks | [`Image`], [`Pixels`] |
 //!
@@ -58,6 +59,7 @@ mod limits;
 mod many;
 mod nodes;
 mod options;
+mod pluck;
 mod prepared;
 mod report;
 mod result;
@@ -70,8 +72,9 @@ pub use error::{FitError, OptionKey, Problem};
 pub use evidence::{Doubt, Evidence, Narrow};
 pub use field::Pixels;
 pub use image::Image;
-pub use many::{Job, fit_many};
+pub use many::{Job, fit_many, in_order};
 pub use options::{FitForce, MakeForce, Method, Nodes, Options, Step};
+pub use pluck::{Pluck, Plucked, Stretch};
 pub use prepared::Prepared;
 pub use report::Searched;
 pub use result::{Choices, Fit, Moved, NodeEvidence, StepReason};

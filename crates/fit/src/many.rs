@@ -1,4 +1,4 @@
-//! Many fits on several threads, with results in order.
+//! Much work on several threads, many fits above all, with answers in order.
 
 use std::collections::BTreeMap;
 use std::num::NonZero;
@@ -34,19 +34,33 @@ pub struct Job<'a> {
 /// assert_eq!(order, [(0, true), (1, true), (2, true)]);
 /// # Ok::<(), fit::FitError>(())
 /// ```
-pub fn fit_many(
-    jobs: &[Job<'_>],
+pub fn fit_many(jobs: &[Job<'_>], threads: usize, each: impl FnMut(usize, Result<Fit, FitError>)) {
+    let work = |job: &Job<'_>| job.prepared.fit(job.start);
+    in_order(jobs, threads, work, each);
+}
+
+/// Do pieces of work on so many threads, and hand each answer over in the order of the work, as soon as it and all
+/// before it are there. With one thread, or one piece of work, it is done on the caller's own.
+///
+/// ```
+/// let mut squares = Vec::new();
+/// fit::in_order(&[3, 1, 2], 2, |number| number * number, |at, square| squares.push((at, square)));
+/// assert_eq!(squares, [(0, 9), (1, 1), (2, 4)]);
+/// ```
+pub fn in_order<J: Sync, T: Send>(
+    jobs: &[J],
     threads: usize,
-    mut each: impl FnMut(usize, Result<Fit, FitError>),
+    work: impl Fn(&J) -> T + Sync,
+    mut each: impl FnMut(usize, T),
 ) {
     let threads = NonZero::new(threads.min(jobs.len())).map_or(1, NonZero::get);
     if threads == 1 {
         for (index, job) in jobs.iter().enumerate() {
-            each(index, job.prepared.fit(job.start));
+            each(index, work(job));
         }
         return;
     }
-    let next = &AtomicUsize::new(0);
+    let (next, work) = (&AtomicUsize::new(0), &work);
     let (send, receive) = mpsc::channel();
     std::thread::scope(|scope| {
         for _ in 0..threads {
@@ -56,8 +70,8 @@ pub fn fit_many(
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     jobs.get(index).map(|job| (index, job))
                 } {
-                    // the receiver is gone: the other results are not needed
-                    if send.send((index, job.prepared.fit(job.start))).is_err() {
+                    // the receiver is gone: the other answers are not needed
+                    if send.send((index, work(job))).is_err() {
                         break;
                     }
                 }
@@ -65,10 +79,10 @@ pub fn fit_many(
         }
         drop(send);
         let (mut waiting, mut due) = (BTreeMap::new(), 0);
-        for (index, found) in receive {
-            waiting.insert(index, found);
-            while let Some(found) = waiting.remove(&due) {
-                each(due, found);
+        for (index, answer) in receive {
+            waiting.insert(index, answer);
+            while let Some(answer) = waiting.remove(&due) {
+                each(due, answer);
                 due += 1;
             }
         }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use glam::DVec2;
 use search::{Search, Seen, Support};
 use subpixel::Blurred;
 
@@ -13,6 +14,8 @@ pub struct Searched {
     pub seen: Seen,
     /// What speaks for each curve that was found, the one about the start first.
     pub found: Vec<(Search, Support)>,
+    /// These curves, closed or open as the outline.
+    pub curves: Vec<Vec<DVec2>>,
     /// Which of them was taken; None for none: the start was given back.
     pub taken: Option<usize>,
     /// Whether it was taken though another was closed better, since that one folds or has collapsed.

@@ -8,7 +8,7 @@ use integrator::State;
 use snake::{Body, Member, Outcome, Rest, Run, Simulation, Snake, Until};
 
 use crate::nodes::node_evidence;
-use crate::setup::{bordered, place, stepping, unfit, unmoved};
+use crate::setup::{bordered, nodes, place, stepping, unfit, unmoved};
 use crate::{Choices, Contour, Evidence, Fit, FitError, Moved, Prepared};
 
 /// The least distance of the found sides of a bar that is wide enough, in σ: those of a thin line
@@ -48,7 +48,7 @@ pub struct Session {
 impl Session {
     pub(crate) fn new(prepared: &Prepared, start: &Contour) -> Result<Self, FitError> {
         let closed = start.closed;
-        let x = place(prepared, start)?;
+        let x = place(prepared, start, nodes(prepared, start))?;
         let options = prepared.options();
         let forces = prepared.forces()?;
         let topology = if closed {

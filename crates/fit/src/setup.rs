@@ -23,8 +23,18 @@ const REACH: f64 = 0.25;
 /// The longest step for chosen forces: no slope tells how far a step may go where a force jumps. T.
 const MOST_CHOSEN_DT: f64 = 0.2;
 
-/// The nodes of a start, evenly along a spline through its points, in the image.
-pub(crate) fn place(prepared: &Prepared, start: &Contour) -> Result<Vec<DVec2>, FitError> {
+/// As many nodes as the options say for a start.
+pub(crate) fn nodes(prepared: &Prepared, start: &Contour) -> usize {
+    let along = elastic::length(&start.clicks(), start.closed);
+    prepared.options().nodes.along(along)
+}
+
+/// So many nodes of a start, evenly along a spline through its points, in the image.
+pub(crate) fn place(
+    prepared: &Prepared,
+    start: &Contour,
+    nodes: usize,
+) -> Result<Vec<DVec2>, FitError> {
     let clicks = start.clicks();
     let (width, height) = prepared.image().size();
     let most = DVec2::new(width as f64, height as f64) - 0.5;
@@ -41,8 +51,6 @@ pub(crate) fn place(prepared: &Prepared, start: &Contour) -> Result<Vec<DVec2>, 
         };
         return Err(FitError::new(OptionKey::Start, problem));
     }
-    let along = elastic::length(&clicks, start.closed);
-    let nodes = prepared.options().nodes.along(along);
     if nodes > MOST_NODES {
         let problem = Problem::Count {
             least: 3,

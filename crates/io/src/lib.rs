@@ -14,6 +14,7 @@
 //! # Ok::<(), io::IoError>(())
 //! ```
 
+mod animation;
 mod claims;
 mod error;
 pub mod limits;

@@ -1,4 +1,4 @@
-//! Grids and curves as pictures: plain raster, written as PNG.
+//! Grids and curves as pictures: plain raster, written as PNG; curves that move, as GIF.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -7,6 +7,7 @@ use field::Grid;
 use glam::DVec2;
 use image::{ImageFormat, Rgb, RgbImage};
 
+pub use crate::animation::{Animation, Stroke};
 use crate::picture::as_u32;
 use crate::write::write_whole;
 use crate::{IoError, Picture};
@@ -92,7 +93,8 @@ pub fn enlarged(image: &RgbImage, zoom: f64) -> RgbImage {
 }
 
 /// The picture with so many pixels made one, by their mean, that no side is longer than `longest`.
-pub(crate) fn shrunk(image: &RgbImage, longest: u32) -> RgbImage {
+#[must_use]
+pub fn shrunk(image: &RgbImage, longest: u32) -> RgbImage {
     let k = image.width().max(image.height()).div_ceil(longest).max(1);
     if k == 1 {
         return image.clone();
@@ -144,12 +146,29 @@ pub fn draw_curve(
     width: f64,
     colour: [u8; 3],
 ) {
+    let size = image.dimensions();
+    covered(size, (nodes, closed), width, |x, y, cover| {
+        let pixel = image.get_pixel_mut(x, y);
+        for (under, over) in pixel.0.iter_mut().zip(colour) {
+            let way = (f64::from(over) - f64::from(*under)) * cover;
+            *under = byte(f64::from(*under) + way);
+        }
+    });
+}
+
+/// The pixels that a curve as wide as `width` pixels covers, edge by edge, and how much of each, above 0.
+pub(crate) fn covered(
+    (columns, rows): (u32, u32),
+    (nodes, closed): (&[DVec2], bool),
+    width: f64,
+    mut each: impl FnMut(u32, u32, f64),
+) {
     let segments = if closed {
         nodes.len()
     } else {
         nodes.len().saturating_sub(1)
     };
-    let (columns, rows) = (f64::from(image.width()), f64::from(image.height()));
+    let (columns, rows) = (f64::from(columns), f64::from(rows));
     let reach = width / 2.0 + 1.0;
     for i in 0..segments {
         let (a, b) = (nodes[i], nodes[(i + 1) % nodes.len()]);
@@ -164,23 +183,13 @@ pub fn draw_curve(
                 let part = if part.is_finite() { part } else { 0.0 };
                 let distance = p.distance(a + along * part);
                 let cover = (width / 2.0 + 0.5 - distance).clamp(0.0, 1.0);
-                blend(image, p, colour, cover);
+                if cover > 0.0 {
+                    each(as_u32(index(x)), as_u32(index(y)), cover);
+                }
                 x += 1.0;
             }
             y += 1.0;
         }
-    }
-}
-
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the caller has clipped p to the image"
-)]
-fn blend(image: &mut RgbImage, p: DVec2, colour: [u8; 3], cover: f64) {
-    let pixel = image.get_pixel_mut(p.x as u32, p.y as u32);
-    for (under, over) in pixel.0.iter_mut().zip(colour) {
-        *under = byte(f64::from(*under) + (f64::from(over) - f64::from(*under)) * cover);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Files written whole or not at all: beside, then renamed.
 
-use std::io::Write as _;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::IoError;
@@ -98,6 +98,18 @@ fn replaced(target: &Path) -> std::io::Result<Option<std::fs::Metadata>> {
 ///
 /// A folder that is not there or cannot be written, a file that is read-only, or a full disk; by the path.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
+    write_by(path, &mut |file| file.write_all(bytes))
+}
+
+/// [`write_whole`] of what is not in memory at once: `write` is given the file.
+///
+/// # Errors
+///
+/// As [`write_whole`], and what `write` reports.
+pub(crate) fn write_by(
+    path: &Path,
+    write: &mut dyn FnMut(&mut dyn Write) -> std::io::Result<()>,
+) -> Result<(), IoError> {
     let refuse = |error: std::io::Error| unwritable(path, error);
     if is_stream(path) {
         // what is a file behind a descriptor grows, as by any other output there
@@ -105,12 +117,12 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
             .append(true)
             .open(path)
             .map_err(refuse)?;
-        return stream.write_all(bytes).map_err(refuse);
+        return write(&mut stream).map_err(refuse);
     }
     let target = followed(path).map_err(refuse)?;
     let before = replaced(&target).map_err(refuse)?;
     let mut beside = beside(&target).map_err(refuse)?;
-    beside.write_all(bytes).map_err(refuse)?;
+    write(&mut beside).map_err(refuse)?;
     if let Some(before) = before {
         keep_owner(beside.as_file(), &before);
         beside

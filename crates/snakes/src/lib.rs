@@ -71,7 +71,7 @@ pub use field;
 pub use field::Grid;
 pub use fit::{
     Choices, Contour, Edit, Evidence, Fit, FitError, Image, Job, NodeEvidence, Options, Pixels,
-    Prepared, Session, fit, fit_many,
+    Pluck, Plucked, Prepared, Session, fit, fit_many,
 };
 pub use glam;
 pub use glam::DVec2 as Point;

@@ -13,8 +13,6 @@ mod table;
 
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
 
 use io::{Claims, RgbImage, is_standard, paint, write_whole};
 use scene::SceneError;
@@ -377,24 +375,13 @@ fn in_order<T: Send>(
     jobs: NonZero<usize>,
     work: impl Fn(usize) -> T + Sync,
 ) -> Vec<T> {
-    let (next, work) = (&AtomicUsize::new(0), &work);
-    let (send, receive) = mpsc::channel();
-    std::thread::scope(|scope| {
-        for _ in 0..jobs.get().min(count) {
-            let send = send.clone();
-            scope.spawn(move || {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    // the receiver waits for all
-                    if index >= count || send.send((index, work(index))).is_err() {
-                        break;
-                    }
-                }
-            });
-        }
-    });
-    drop(send);
-    let mut answers: Vec<(usize, T)> = receive.into_iter().collect();
-    answers.sort_by_key(|answer| answer.0);
-    answers.into_iter().map(|answer| answer.1).collect()
+    let numbers: Vec<usize> = (0..count).collect();
+    let mut answers = Vec::with_capacity(count);
+    scene::fit::in_order(
+        &numbers,
+        jobs.get(),
+        |number| work(*number),
+        |_, answer| answers.push(answer),
+    );
+    answers
 }

@@ -3,19 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use glam::DVec2;
-use io::{Picture, RgbImage, paint};
+use io::{Picture, RgbImage};
 
 use super::rows::{Row, Truth};
 use super::set::Case;
+use crate::crop::Crop;
 
 /// Side of a tile. Pixels.
 const TILE: u32 = 360;
 /// Between two tiles, and around all.
 const GAP: u32 = 6;
-/// Around the curves, as a share of their size.
-const MARGIN: f64 = 0.12;
-/// A range of levels below this is stretched to be seen.
-const DIM: u8 = 128;
 
 /// Colors of the truth, the start and the outline found.
 pub(super) const TRUTH: [u8; 3] = [0, 190, 0];
@@ -43,55 +40,12 @@ pub(super) fn tile(row: &Row, case: &Case) -> Result<RgbImage, String> {
         truth.rings.iter().map(|ring| (&ring[..], TRUTH)).collect();
     curves.push((&row.start, START));
     curves.extend(found.map(|curve| (&curve[..], FOUND)));
-    let (width, height) = picture.size();
-    let last = DVec2::new(width as f64, height as f64) - 1.0;
-    let points = curves.iter().flat_map(|(curve, _)| curve.iter());
-    let within = points.map(|p| p.clamp(DVec2::ZERO, last));
-    let (low, high) = within.fold((last, DVec2::ZERO), |(low, high), p| {
-        (low.min(p), high.max(p))
-    });
-    let room = MARGIN * (high - low).max_element();
-    let low = (low - room).max(DVec2::ZERO).floor();
-    let high = (high + room).min(last).ceil();
-    let zoom = f64::from(TILE - 1) / (high - low + 1.0).max_element();
-    let mut image = paint::enlarged(&cropped(picture.display(), low, high), zoom);
+    let points = curves.iter().flat_map(|(curve, _)| curve.iter().copied());
+    let mut crop = Crop::about(&picture, points, TILE);
     for (curve, color) in curves {
-        let drawn: Vec<DVec2> = curve.iter().map(|p| (*p - low) * zoom).collect();
-        paint::draw_curve(&mut image, &drawn, true, 2.0, color);
+        crop.draw(curve, true, color);
     }
-    Ok(image)
-}
-
-/// A part of a picture, its levels stretched if they are all much alike.
-fn cropped(image: &RgbImage, low: DVec2, high: DVec2) -> RgbImage {
-    let size = high - low + 1.0;
-    let part = RgbImage::from_fn(whole(size.x), whole(size.y), |x, y| {
-        *image.get_pixel(whole(low.x) + x, whole(low.y) + y)
-    });
-    let mut levels: Vec<u8> = part.pixels().flat_map(|pixel| pixel.0).collect();
-    levels.sort_unstable();
-    let count = levels.len();
-    let (dark, bright) = (levels[count / 100], levels[count - 1 - count / 100]);
-    if bright - dark >= DIM || bright == dark {
-        return part;
-    }
-    let stretched = |level: u8| {
-        let share = u32::from(level.clamp(dark, bright) - dark) * 255;
-        u8::try_from(share / u32::from(bright - dark)).unwrap_or(u8::MAX)
-    };
-    let mut part = part;
-    part.pixels_mut()
-        .for_each(|pixel| pixel.0 = pixel.0.map(stretched));
-    part
-}
-
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a whole number of pixels within a picture"
-)]
-const fn whole(length: f64) -> u32 {
-    length as u32
+    Ok(crop.image)
 }
 
 /// All tiles on one white sheet, by rows, so many a row.

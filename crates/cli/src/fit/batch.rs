@@ -2,37 +2,35 @@
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, mpsc};
+use std::sync::Arc;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use io::Claims;
 use scene::SceneError;
-use scene::fit::Options;
+use scene::fit::{Options, in_order};
 use serde_json::json;
 
 use super::flags::Flags;
+use super::inputs;
+use super::measures::{HEADINGS, rows};
 use super::one::{all, beside, picture};
 use super::options::options;
-use super::results::{HEADINGS, Wanted, of_folder, rows, write};
+use super::results::{Wanted, of_folder, write};
+use super::sheet::{Place, Rest, Sheet};
 use super::start::stem;
 use crate::args::Words;
 use crate::commands::{Answer, code, key};
 use crate::stop::{STOPPED, Stop};
 
-/// Endings of the names of pictures in a folder.
-const ENDINGS: [&str; 12] = [
-    "png", "jpg", "jpeg", "tif", "tiff", "pgm", "ppm", "pnm", "pbm", "pfm", "webp", "btf",
-];
-
 /// What became of a picture.
 #[derive(Debug)]
 enum Done {
-    /// So many outlines, so many of them not sure, and its rows of the table.
+    /// So many outlines, so many of them not sure, its rows of the table, its place on the page.
     Found {
         outlines: usize,
         unsure: usize,
         rows: String,
+        place: Option<Place>,
     },
     /// Its results were there.
     There,
@@ -42,14 +40,59 @@ enum Done {
     Stopped,
 }
 
+/// What became of all pictures so far.
+#[derive(Debug, Default)]
+struct Tally {
+    outlines: usize,
+    unsure: usize,
+    rows: String,
+    places: Vec<Place>,
+    rest: Rest,
+}
+
+impl Tally {
+    /// Count a picture; what there is to say of it.
+    fn count(&mut self, image: &Path, done: Done) -> Option<String> {
+        let name = image.display().to_string();
+        match done {
+            Done::Found {
+                outlines,
+                unsure,
+                rows,
+                place,
+            } => {
+                self.outlines += outlines;
+                self.unsure += unsure;
+                self.rows.push_str(&rows);
+                self.places.extend(place);
+                return (unsure > 0)
+                    .then(|| format!("{name}: {unsure} of {outlines} outlines unsure"));
+            }
+            Done::There => self.rest.there.push(name),
+            Done::Refused(why) => {
+                let text = format!("{name}: {why}");
+                self.rest.refused.push((name, why));
+                return Some(text);
+            }
+            Done::Stopped => self.rest.left.push(name),
+        }
+        None
+    }
+
+    fn is_good(&self) -> bool {
+        self.rest.refused.is_empty() && self.unsure == 0 && self.rest.left.is_empty()
+    }
+}
+
 /// Find the outlines of all pictures.
-pub(super) fn many(flags: &Flags, words: Words) -> Answer {
+pub(super) fn many(flags: &Flags, images: &[PathBuf], words: Words) -> Answer {
     let Some(folder) = &flags.out_dir else {
         let message = "is needed for several pictures or a folder of them";
         return Err(key("--out-dir", message));
     };
     let options = options(flags)?;
-    let pictures = pictures(&flags.images)?;
+    let pictures = inputs::files(images)?;
+    let sheet = Sheet::of(flags.sheet.as_ref())?;
     io::ready_folder(folder)?;
     let jobs = plan(flags, folder, &pictures)?;
     let stop = Stop::listen();
@@ -57,65 +100,59 @@ pub(super) fn many(flags: &Flags, words: Words) -> Answer {
         .jobs
         .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get));
     let bar = bar(jobs.len(), words);
-    let mut table = format!("{HEADINGS}\n");
-    let (mut found, mut unsure, mut there, mut refused, mut left) = (0, 0, 0, 0, 0);
+    let mut tally = Tally::default();
     in_order(
         &jobs,
-        threads.clamp(1, jobs.len().max(1)),
-        |job| done(job, flags, &options, &stop),
-        |job, one| {
+        threads,
+        |job| done(job, flags, &options, sheet.as_ref(), &stop),
+        |index, done| {
             bar.inc(1);
-            match one {
-                Done::Found {
-                    outlines,
-                    unsure: doubtful,
-                    rows,
-                } => {
-                    found += outlines;
-                    unsure += doubtful;
-                    table.push_str(&rows);
-                    if doubtful > 0 {
-                        let which = job.image.display();
-                        let text = format!("{which}: {doubtful} of {outlines} outlines unsure");
-                        bar.suspend(|| words.say(&text));
-                    }
-                }
-                Done::There => there += 1,
-                Done::Refused(why) => {
-                    refused += 1;
-                    bar.suspend(|| words.say(&why));
-                }
-                Done::Stopped => left += 1,
+            if let Some(text) = tally.count(&jobs[index].image, done) {
+                bar.suspend(|| words.say(&text));
             }
         },
     );
     bar.finish_and_clear();
     if let Some(path) = &flags.measure {
-        io::write_whole(path, table.as_bytes())?;
+        io::write_whole(path, format!("{HEADINGS}\n{}", tally.rows).as_bytes())?;
     }
+    if let Some(sheet) = sheet {
+        sheet.write(&tally.places, &tally.rest)?;
+    }
+    said(&tally, jobs.len(), words)?;
+    let refused = tally.rest.refused.len();
+    if jobs.len() == refused && !jobs.is_empty() {
+        return Ok(ExitCode::from(2));
+    }
+    Ok(code(tally.is_good()))
+}
+
+/// Say what became of all pictures.
+fn said(tally: &Tally, pictures: usize, words: Words) -> Result<(), SceneError> {
+    let Tally {
+        outlines,
+        unsure,
+        rest,
+        ..
+    } = tally;
+    let [refused, there, left] = [rest.refused.len(), rest.there.len(), rest.left.len()];
     words.say(&format!(
-        "{} pictures: {found} outlines, {unsure} of them unsure; {refused} pictures refused, {there} there already",
-        jobs.len()
+        "{pictures} pictures: {outlines} outlines, {unsure} of them unsure; {refused} pictures refused, {there} there already",
     ));
     if left > 0 {
         words.say(&format!(
             "{STOPPED}; {left} pictures are left: --resume goes on with them"
         ));
     }
-    let good = refused == 0 && unsure == 0 && left == 0;
     words.end(&json!({
-        "pictures": jobs.len(),
-        "outlines": found,
+        "pictures": pictures,
+        "outlines": outlines,
         "unsure": unsure,
         "refused": refused,
         "there": there,
         "left": left,
-        "good": good,
-    }))?;
-    if jobs.len() == refused && !jobs.is_empty() {
-        return Ok(ExitCode::from(2));
-    }
-    Ok(code(good))
+        "good": tally.is_good(),
+    }))
 }
 
 /// A picture, and what is to be made of it.
@@ -123,40 +160,6 @@ pub(super) fn many(flags: &Flags, words: Words) -> Answer {
 struct Job {
     image: PathBuf,
     wanted: Vec<Wanted>,
-}
-
-/// The files of all pictures named, those of folders by name.
-fn pictures(images: &[PathBuf]) -> Result<Vec<PathBuf>, SceneError> {
-    let mut list = Vec::new();
-    for image in images {
-        if !image.is_dir() {
-            list.push(image.clone());
-            continue;
-        }
-        let refuse =
-            |error: std::io::Error| key("picture", format!("{}: {error}", image.display()));
-        let mut inside = Vec::new();
-        for entry in std::fs::read_dir(image).map_err(refuse)? {
-            let path = entry.map_err(refuse)?.path();
-            let ending = path
-                .extension()
-                .map(|ending| ending.to_string_lossy().to_lowercase());
-            if path.is_file() && ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str())) {
-                inside.push(path);
-            }
-        }
-        if inside.is_empty() {
-            let message = format!(
-                "{} holds no picture ({})",
-                image.display(),
-                ENDINGS.join(", ")
-            );
-            return Err(key("picture", message));
-        }
-        inside.sort();
-        list.append(&mut inside);
-    }
-    Ok(list)
 }
 
 /// What is made of each picture: no result takes the place of another, or of what is read.
@@ -186,35 +189,45 @@ fn plan(flags: &Flags, folder: &Path, pictures: &[PathBuf]) -> Result<Vec<Job>, 
             wanted,
         });
     }
-    if let Some(path) = &flags.measure {
-        claims.writes("--measure", path)?;
+    for (flag, path) in [("--measure", &flags.measure), ("--sheet", &flags.sheet)] {
+        if let Some(path) = path {
+            if flags.no_clobber && !flags.resume && path.exists() {
+                let message = format!("{} is there already; needed: another name", path.display());
+                return Err(key(flag, message));
+            }
+            claims.writes(flag, path)?;
+        }
     }
     Ok(jobs)
 }
 
 /// The work on one picture.
-fn done(job: &Job, flags: &Flags, options: &Options, stop: &Stop) -> Done {
+fn done(job: &Job, flags: &Flags, options: &Options, sheet: Option<&Sheet>, stop: &Stop) -> Done {
     if stop.asked() {
         return Done::Stopped;
     }
     if flags.resume && job.wanted.iter().all(|wanted| wanted.path().exists()) {
         return Done::There;
     }
-    match attempt(job, flags, options) {
+    match attempt(job, flags, options, sheet) {
         Ok(done) => done,
         Err(error) => {
-            let name = job.image.display().to_string();
-            let message = error.to_string();
-            Done::Refused(if message.starts_with(&name) {
-                message
-            } else {
-                format!("{name}: {message}")
-            })
+            // the name of the picture is said before it
+            let (name, message) = (job.image.display().to_string(), error.to_string());
+            let rest = message
+                .strip_prefix(&name)
+                .and_then(|rest| rest.strip_prefix(": "));
+            Done::Refused(rest.map_or(message.clone(), str::to_owned))
         }
     }
 }
 
-fn attempt(job: &Job, flags: &Flags, options: &Options) -> Result<Done, SceneError> {
+fn attempt(
+    job: &Job,
+    flags: &Flags,
+    options: &Options,
+    sheet: Option<&Sheet>,
+) -> Result<Done, SceneError> {
     let quiet = Words {
         quiet: true,
         verbose: false,
@@ -231,56 +244,24 @@ fn attempt(job: &Job, flags: &Flags, options: &Options) -> Result<Done, SceneErr
         quiet,
     )?;
     for wanted in &job.wanted {
-        write(wanted, &picture, &job.image, &found)?;
+        write(wanted, &picture, &job.image, &found, flags)?;
     }
     let rows = if flags.measure.is_some() {
         rows(&picture, &job.image, &found)
     } else {
         String::new()
     };
+    let place = match sheet {
+        Some(sheet) => Some(sheet.keep(&picture, &job.image, &found)?),
+        None => None,
+    };
     let unsure = found.iter().filter(|found| found.unsure.is_some()).count();
     Ok(Done::Found {
         outlines: found.len(),
         unsure,
         rows,
+        place,
     })
-}
-
-/// Work on so many threads; results are handed over in the order of the jobs, as soon as they are there.
-fn in_order(
-    jobs: &[Job],
-    threads: usize,
-    work: impl Fn(&Job) -> Done + Sync,
-    mut each: impl FnMut(&Job, Done),
-) {
-    let next = &AtomicUsize::new(0);
-    let work = &work;
-    let (send, receive) = mpsc::channel();
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            let send = send.clone();
-            scope.spawn(move || {
-                while let Some((index, job)) = {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    jobs.get(index).map(|job| (index, job))
-                } {
-                    if send.send((index, work(job))).is_err() {
-                        break;
-                    }
-                }
-            });
-        }
-        drop(send);
-        let mut waiting = std::collections::BTreeMap::new();
-        let mut due = 0;
-        for (index, done) in receive {
-            waiting.insert(index, done);
-            while let Some(done) = waiting.remove(&due) {
-                each(&jobs[due], done);
-                due += 1;
-            }
-        }
-    });
 }
 
 /// A bar on standard error with the time that is left.

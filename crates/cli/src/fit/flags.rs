@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, ValueEnum};
 
+use super::results::ANIMATION;
 use super::seeds::Where;
 use super::start::Start;
 use crate::args::{Change, Computed, Polarity};
@@ -15,13 +16,15 @@ Examples:
   snake fit photo.jpg --from click:120,90 --explain -o outline.geojson
   snake fit photo.jpg --from mask.png -o refined.png --measure table.csv
   snake fit nuclei.png --seeds auto -o labels.tif --measure table.csv --overlay seen.png
+  snake fit 'cells/*.tif' --from starts/{stem}.csv --out-dir found --sheet found.html
   snake fit frames/ --from starts/{stem}.csv --out-dir found --as geojson,mask
 
 Exit code 0: found. 1: unsure, not at rest, stopped, or a picture of many failed. 2: refused, and why.";
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Flags {
-    /// The pictures: PNG, JPEG, TIFF, PGM, PPM, PFM or WebP files, or folders of them; `-` is standard input.
+    /// The pictures: PNG, JPEG, TIFF, PGM, PPM, PFM or WebP files, folders of them, or names with `*` and `?`; `-` is
+    /// standard input.
     #[arg(required = true, value_name = "IMAGE")]
     pub images: Vec<PathBuf>,
     /// Where to start: `circle:X,Y,RADIUS`, `box:LEFT,TOP,WIDTH,HEIGHT`, `ellipse:X,Y,RX,RY[,DEGREES]`,
@@ -41,8 +44,8 @@ pub(crate) struct Flags {
     /// Write the outlines of each picture to this folder, as STEM.csv and so on.
     #[arg(long, value_name = "DIR")]
     pub out_dir: Option<PathBuf>,
-    /// Formats to write: csv, geojson, coco, imagej, svg, labelme, mask, labels, deep-labels, overlay; of --out one,
-    /// of --out-dir several with commas between them.
+    /// Formats to write: csv, geojson, coco, imagej, svg, labelme, mask, labels, deep-labels, and of --out-dir overlay
+    /// and animation; of --out one, of --out-dir several with commas between them.
     #[arg(long = "as", value_name = "FORMATS", value_delimiter = ',')]
     pub formats: Vec<String>,
     /// Write a table with a row for each outline: area, perimeter, axes, grey inside and outside, how sure it is.
@@ -51,6 +54,34 @@ pub(crate) struct Flags {
     /// Write the picture with the starts (blue) and the outlines found (orange; purple where unsure) over it.
     #[arg(long, value_name = "PNG", conflicts_with = "out_dir")]
     pub overlay: Option<PathBuf>,
+    /// Write a page with a small picture of every result, the least sure first, and what was refused: one HTML file.
+    #[arg(long, value_name = "HTML")]
+    pub sheet: Option<PathBuf>,
+    /// Write how the outlines were found: each curve of the searches, or the curve as it moved.
+    #[arg(long, value_name = "GIF", conflicts_with_all = ["out_dir", "seeds"])]
+    pub animation: Option<PathBuf>,
+    /// Write the moments of a motion, as `snake run` does (at most 1000): CSV if the name ends in .csv, else JSON Lines;
+    /// `-` is standard output.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["out_dir", "seeds"])]
+    pub record: Option<PathBuf>,
+    /// Write what is known of each node too: its standard error in pixels and the strength of its edge from 0 to 1, as
+    /// columns `error` and `edge` of a CSV, lists `node_error` and `node_edge` of GeoJSON, COCO and labelme, in --json.
+    /// The overlay has the strength as color, from yellow (none) to blue, and in orange the sides of the band that holds
+    /// the edge 95 times of 100.
+    #[arg(long, conflicts_with = "seeds")]
+    pub evidence: bool,
+    /// Pluck each outline: move stretch by stretch so many pixels outwards and inwards, 2 if not given, let go, and say
+    /// how much comes back: 1 where the picture holds it firmly, 0 where it stays where it was put. The overlay has that
+    /// as color, from yellow (loose) to blue, red where it ran away.
+    #[arg(
+        long,
+        value_name = "PX",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "2",
+        allow_negative_numbers = true
+    )]
+    pub pluck: Option<f64>,
     /// Say what was measured, what was chosen and why, and how it ended.
     #[arg(long)]
     pub explain: bool,
@@ -208,6 +239,12 @@ pub(crate) enum Origin {
 }
 
 impl Flags {
+    /// Whether the way of a curve is kept.
+    pub(super) fn is_watched(&self) -> bool {
+        let named = self.formats.iter().any(|name| name == ANIMATION);
+        named || self.animation.is_some() || self.record.is_some()
+    }
+
     /// The first flag that only a motion has.
     fn of_motion(&self) -> Option<&'static str> {
         let given = [

@@ -1,11 +1,17 @@
 //! `snake fit`: the outlines of one picture or of many.
 
 mod batch;
+mod film;
 mod flags;
+mod inputs;
+mod measures;
 mod one;
 mod options;
+mod overlay;
 mod results;
+mod said;
 mod seeds;
+mod sheet;
 mod start;
 
 use std::path::{Path, PathBuf};
@@ -13,16 +19,20 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use io::is_standard;
+use scene::SceneError;
+use scene::fit::Method;
 use scene::snake::Outcome;
-use serde_json::json;
 
 pub(crate) use self::flags::{EXAMPLES, Flags};
+use self::measures::{HEADINGS, rows};
 use self::one::{Found, all, beside, picture};
 pub(crate) use self::options::rules as search_rules;
-use self::results::{HEADINGS, rows, write};
+use self::results::write;
+use self::said::{said, summary};
+use self::sheet::{Rest, Sheet};
 use self::start::stem;
 use crate::args::Words;
-use crate::commands::{Answer, code, key, objects, two_inputs};
+use crate::commands::{Answer, code, key, two_inputs};
 use crate::output::{goes_nowhere, put_bytes};
 use crate::stop::{STOPPED, Stop};
 
@@ -31,9 +41,10 @@ const TITLE: &str = "a contour fitted to a picture";
 
 /// Find the outlines of a picture, or of many.
 pub(crate) fn fit(flags: &Flags, words: Words) -> Answer {
-    match &flags.images[..] {
+    let images = inputs::matched(&flags.images)?;
+    match &images[..] {
         [image] if flags.out_dir.is_none() && !image.is_dir() => single(flags, image, words),
-        _ => batch::many(flags, words),
+        _ => batch::many(flags, &images, words),
     }
 }
 
@@ -47,8 +58,21 @@ fn single(flags: &Flags, image: &Path, words: Words) -> Answer {
     let file = beside(flags, &stem(image));
     two_inputs(image, file.as_deref())?;
     let wanted = results::of_files(flags)?;
+    if flags.record.is_some() && options.method == Method::Search {
+        let message = "a search has no motion to record; needed: --method motion, or --animation, which shows its stages";
+        return Err(key("--record", message));
+    }
+    let sheet = Sheet::of(flags.sheet.as_ref())?;
+    let more = [("--record", &flags.record), ("--measure", &flags.measure)];
+    let more = more
+        .iter()
+        .filter_map(|(flag, path)| Some((*flag, path.as_deref()?)));
+    let mut outputs = wanted
+        .iter()
+        .map(|(flag, wanted)| (*flag, wanted.path()))
+        .chain(more);
     if words.json
-        && let Some((flag, _)) = wanted.iter().find(|(_, wanted)| is_standard(wanted.path()))
+        && let Some((flag, _)) = outputs.find(|(_, path)| is_standard(path))
     {
         let message = format!("writes to standard output, and so does {flag}; give {flag} a file");
         return Err(key("--json", message));
@@ -61,6 +85,9 @@ fn single(flags: &Flags, image: &Path, words: Words) -> Answer {
     results::check(flags, &wanted, &inputs)?;
     let stop = Stop::listen();
     let found = all(&picture, &stem(image), &options, flags, &stop, words)?;
+    if let Some(path) = &flags.record {
+        recorded(path, image, &found)?;
+    }
     if found.is_empty() && flags.seeds.is_some() {
         words.say("no object here");
     }
@@ -78,7 +105,7 @@ fn single(flags: &Flags, image: &Path, words: Words) -> Answer {
         if is_standard(one.path()) && goes_nowhere() {
             words.say("note: standard output is closed or /dev/null: the contour is kept nowhere");
         }
-        if let Some(bytes) = write(one, &picture, image, &found)? {
+        if let Some(bytes) = write(one, &picture, image, &found, flags)? {
             put_bytes(&bytes)?;
         }
     }
@@ -90,69 +117,31 @@ fn single(flags: &Flags, image: &Path, words: Words) -> Answer {
             io::write_whole(path, table.as_bytes())?;
         }
     }
+    if let Some(sheet) = sheet {
+        let place = sheet.keep(&picture, image, &found)?;
+        sheet.write(&[place], &Rest::default())?;
+    }
     let stopped = stop.asked();
     let some = flags.seeds.is_none() || !found.is_empty();
     let good = said(&found, words) && some && !stopped;
     if stopped {
         words.say(STOPPED);
     }
-    words.end(&summary(&found, good))?;
+    words.end(&summary(&found, good, flags.evidence))?;
     Ok(code(good))
 }
 
-/// Say how each outline ended; whether all are good.
-fn said(found: &[Found], words: Words) -> bool {
-    let mut good = true;
-    for (index, one) in found.iter().enumerate() {
-        let title = match found.len() {
-            1 => TITLE.to_owned(),
-            count => format!("outline {} of {count}", index + 1),
-        };
-        let Some(fit) = &one.fit else {
-            if let Some(why) = &one.unsure {
-                words.say(&format!("{title}: {why}"));
-            }
-            good &= one.unsure.is_none();
-            continue;
-        };
-        for line in fit.chosen.to_string().lines() {
-            words.detail(&if found.len() > 1 {
-                format!("{title}: {line}")
-            } else {
-                line.to_owned()
-            });
-        }
-        words.say(&format!("{title}: {}", fit.outcome));
-        if matches!(fit.outcome, Outcome::Finished { .. }) {
-            words.say("it was to come to rest and has not: allow more steps");
-        }
-        if let Some(quality) = &fit.quality {
-            objects(&title, quality, words);
-        }
-        good &= one.unsure.is_none();
+/// Write how the curve moved.
+fn recorded(path: &Path, image: &Path, found: &[Found]) -> Result<(), SceneError> {
+    let [one] = found else {
+        let message = format!("holds the motion of one curve; got {} starts", found.len());
+        return Err(key("--record", message));
+    };
+    let Some(record) = film::record(one, &stem(image), TITLE) else {
+        return Ok(());
+    };
+    if is_standard(path) {
+        return put_bytes(record.to_json_lines()?.as_bytes());
     }
-    if found.iter().any(|one| one.fit.is_none()) {
-        words.say(&format!("{} objects found", found.len()));
-    }
-    good
-}
-
-/// How it ended, as JSON: of one outline its own words, of several a list.
-fn summary(found: &[Found], good: bool) -> serde_json::Value {
-    if let [one] = found
-        && let Some(fit) = &one.fit
-    {
-        let mut value = one::json(one);
-        value["title"] = json!(TITLE);
-        value["good"] = json!(good);
-        value["curves"] = fit
-            .quality
-            .as_ref()
-            .map(crate::commands::told)
-            .into_iter()
-            .collect();
-        return value;
-    }
-    let outlines: Vec<serde_json::Value> = found.iter().map(one::json).collect();
-    json!({ "title": TITLE, "good": good, "outlines": outlines })
+    Ok(record.save(path)?)
 }

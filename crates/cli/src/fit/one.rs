@@ -6,10 +6,13 @@ use std::sync::Arc;
 use io::shapes::{Shape, Value};
 use io::{Picture, PictureReading};
 use scene::SceneError;
-use scene::fit::{Choices, Evidence, Fit, Image, Method, Options, Prepared, Session};
+use scene::fit::{
+    Choices, Contour, Evidence, Fit, Image, Method, OptionKey, Options, Pluck, Plucked, Prepared,
+    Session,
+};
 use scene::snake::Outcome;
-use serde_json::json;
 
+use super::film::Moments;
 use super::flags::Flags;
 use super::options::by_flag;
 use super::start::contour;
@@ -32,6 +35,10 @@ pub(super) struct Found {
     /// Why it is not sure, if it is not.
     pub(super) unsure: Option<String>,
     pub(super) measured: Measured,
+    /// What came back when it was plucked, if it was.
+    pub(super) plucked: Option<Plucked>,
+    /// How it moved, if that was watched.
+    pub(super) moments: Option<Moments>,
 }
 
 /// What was measured of how sure an outline is.
@@ -60,18 +67,25 @@ pub(super) fn all(
     stop: &Stop,
     words: Words,
 ) -> Result<Vec<Found>, SceneError> {
-    match (&flags.seeds, &flags.from) {
-        (Some(seeds), _) => seeds.outlines(picture, flags, stem),
-        (None, Some(from)) => outlines(
-            picture,
-            &from.shapes(flags, stem)?,
-            options,
-            flags,
-            stop,
-            words,
-        ),
-        (None, None) => Ok(Vec::new()), // refused with the flags
+    let image = Image::of(Arc::<Picture>::clone(picture));
+    let ready = || Prepared::of(&image, options).map_err(|e| by_flag(&e));
+    let (prepared, mut found) = match (&flags.seeds, &flags.from) {
+        (Some(seeds), _) => (None, seeds.outlines(picture, flags, stem)?),
+        (None, Some(from)) => {
+            let (starts, prepared) = (from.shapes(flags, stem)?, ready()?);
+            for note in picture.notes() {
+                words.say(&format!("note: {note}"));
+            }
+            let found = outlines(&prepared, &starts, flags, stop, words)?;
+            (Some(prepared), found)
+        }
+        (None, None) => (None, Vec::new()), // refused with the flags
+    };
+    if let Some(kick) = flags.pluck {
+        let prepared = prepared.map_or_else(ready, Ok)?;
+        pluck(&prepared, kick, &mut found, words)?;
     }
+    Ok(found)
 }
 
 /// Read a picture as the flags say.
@@ -85,20 +99,44 @@ pub(super) fn picture(path: &Path, flags: &Flags) -> Result<Picture, SceneError>
     Ok(Picture::load_as(path, &reading)?)
 }
 
+/// Pluck the outlines that were found.
+fn pluck(
+    prepared: &Prepared,
+    kick: f64,
+    found: &mut [Found],
+    words: Words,
+) -> Result<(), SceneError> {
+    for (index, one) in found.iter_mut().enumerate() {
+        let Some(shape) = &mut one.shape else {
+            continue;
+        };
+        let outline = Contour {
+            points: shape.first().to_vec(),
+            closed: shape.closed == Some(true),
+        };
+        match prepared.pluck(&outline, &Pluck { kick }) {
+            Ok(plucked) => {
+                let firm = Value::Number(plucked.firm());
+                shape.properties.insert("firm".to_owned(), firm);
+                one.plucked = Some(plucked);
+            }
+            Err(error) if error.key == OptionKey::Kick => return Err(by_flag(&error)),
+            // what cannot be plucked is an outline all the same
+            Err(error) => words.say(&format!("outline {} is not plucked: {error}", index + 1)),
+        }
+    }
+    Ok(())
+}
+
 /// Find the outlines from these starts, one after the other.
 fn outlines(
-    picture: &Arc<Picture>,
+    prepared: &Prepared,
     starts: &[Shape],
-    options: &Options,
     flags: &Flags,
     stop: &Stop,
     words: Words,
 ) -> Result<Vec<Found>, SceneError> {
-    let image = Image::of(Arc::<Picture>::clone(picture));
-    let prepared = Prepared::of(&image, options).map_err(|e| by_flag(&e))?;
-    for note in picture.notes() {
-        words.say(&format!("note: {note}"));
-    }
+    let options = prepared.options();
     if options.method == Method::Motion
         && let Some(note) = prepared.sight().map_err(|e| by_flag(&e))?.note()
     {
@@ -117,6 +155,7 @@ fn outlines(
                 error
             }
         };
+        let mut moments = None;
         let (begun, fit) = match options.method {
             Method::Search => {
                 let found = prepared.fit(&curve).map_err(|e| which(by_flag(&e)))?;
@@ -124,14 +163,17 @@ fn outlines(
             }
             Method::Motion => {
                 let session = prepared.session(&curve).map_err(|e| which(by_flag(&e)))?;
-                (
-                    session.start().to_vec(),
-                    watched(session, options.steps, stop, words),
-                )
+                moments = flags.is_watched().then(Moments::new);
+                let begun = session.start().to_vec();
+                let found = watched(session, options.steps, &mut moments, stop, words);
+                (begun, found)
             }
         };
         let begun = Shape::curve(begun, Some(curve.closed));
-        list.push(told(start, begun, fit));
+        list.push(Found {
+            moments,
+            ..told(start, begun, fit)
+        });
     }
     Ok(list)
 }
@@ -146,6 +188,8 @@ fn told(start: &Shape, begun: Shape, fit: Fit) -> Found {
             fit: Some(fit),
             unsure,
             measured: Measured::default(),
+            plucked: None,
+            moments: None,
         };
     }
     let mut shape = Shape::curve(fit.contour.points.clone(), Some(fit.contour.closed));
@@ -168,6 +212,8 @@ fn told(start: &Shape, begun: Shape, fit: Fit) -> Found {
         fit: Some(fit),
         unsure,
         measured,
+        plucked: None,
+        moments: None,
     }
 }
 
@@ -198,52 +244,34 @@ fn doubt(fit: &Fit) -> Option<String> {
 }
 
 /// The mean standard error of the nodes that have one. Pixels.
-fn mean_error(fit: &Fit) -> Option<f64> {
+pub(super) fn mean_error(fit: &Fit) -> Option<f64> {
     let errors: Vec<f64> = fit.nodes.iter().filter_map(|node| node.error).collect();
     (!errors.is_empty()).then(|| errors.iter().sum::<f64>() / errors.len() as f64)
 }
 
-/// One fit as JSON.
-pub(super) fn json(found: &Found) -> serde_json::Value {
-    let Some(fit) = &found.fit else {
-        return json!({
-            "good": found.unsure.is_none(),
-            "unsure": found.unsure,
-            "closed_edge": found.measured.closed,
-        });
-    };
-    let quality = fit.quality.as_ref();
-    let strength = fit
-        .nodes
-        .iter()
-        .map(|node| node.strength)
-        .fold(f64::INFINITY, f64::min);
-    json!({
-        "outcome": fit.outcome.name(),
-        "message": fit.outcome.to_string(),
-        "steps": fit.steps,
-        "good": found.unsure.is_none(),
-        "unsure": found.unsure,
-        "nodes": fit.nodes.len(),
-        "least_strength": strength.is_finite().then_some(strength),
-        "standard_error": mean_error(fit),
-        "held": quality.map(|quality| quality.held),
-        "crossings": quality.map(|quality| quality.crossings),
-        "area": quality.and_then(|quality| quality.area).map(|(_, end)| end.abs()),
-        "chosen": fit.chosen.to_string().lines().collect::<Vec<_>>(),
-    })
-}
-
 /// Step with a progress bar on standard error, when a person is there to see it, until it ends.
-fn watched(mut session: Session, steps: u64, stop: &Stop, words: Words) -> Fit {
+fn watched(
+    mut session: Session,
+    steps: u64,
+    moments: &mut Option<Moments>,
+    stop: &Stop,
+    words: Words,
+) -> Fit {
     let bar = bar(steps, words);
-    while session.step(STEPS_A_LOOK).is_none() {
-        if stop.asked() {
-            bar.finish_and_clear();
-            return session.stop();
+    let a_look = if moments.is_some() { 1 } else { STEPS_A_LOOK };
+    loop {
+        if let Some(moments) = moments {
+            moments.see(&session, false);
+        }
+        let ended = session.step(a_look).is_some();
+        if ended || stop.asked() {
+            break;
         }
         bar.set_position(session.steps());
     }
+    if let Some(moments) = moments {
+        moments.see(&session, true);
+    }
     bar.finish_and_clear();
-    session.finish()
+    session.stop()
 }

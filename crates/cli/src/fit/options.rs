@@ -111,6 +111,7 @@ pub(super) fn by_flag(error: &FitError) -> SceneError {
         OptionKey::Balloon => "--balloon",
         OptionKey::Step => "--dt",
         OptionKey::Steps => "--steps",
+        OptionKey::Kick => "--pluck",
         OptionKey::Search(rule) => return key(&format!("--set {rule}"), &error.problem),
         OptionKey::Force(..) => {
             // it begins with the name of the kind

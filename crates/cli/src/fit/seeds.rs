@@ -132,5 +132,7 @@ fn told(object: Object, seeds: &[Shape], rules: &Rules) -> Found {
         fit: None,
         unsure,
         measured,
+        plucked: None,
+        moments: None,
     }
 }

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
 
 pub(crate) mod discs;
+pub(crate) mod fits;
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};

@@ -7,7 +7,7 @@ use image::{RgbImage, codecs::jpeg::JpegEncoder};
 use crate::{IoError, paint};
 
 /// The longest side of a picture on the page, in pixels: as wide as it is shown.
-const LONGEST: u32 = 320;
+pub(super) const LONGEST: u32 = 320;
 
 /// Of 100; what is lost is not seen at that size, and the picture itself stands beside.
 const QUALITY: u8 = 85;
@@ -45,13 +45,7 @@ impl Part {
         caption: &str,
         image: &RgbImage,
     ) -> Result<(), IoError> {
-        let small = paint::shrunk(image, LONGEST);
-        let (png, jpeg) = (paint::png(&small)?, jpeg(&small)?);
-        let (kind, bytes) = if png.len() <= jpeg.len() {
-            ("png", png)
-        } else {
-            ("jpeg", jpeg)
-        };
+        let (kind, bytes) = small(&paint::shrunk(image, LONGEST))?;
         self.figures.push(Copy {
             caption: caption.to_owned(),
             file: file.to_owned(),
@@ -60,6 +54,16 @@ impl Part {
         });
         Ok(())
     }
+}
+
+/// A small picture in whichever format takes fewer bytes, and the name of that format.
+pub(super) fn small(image: &RgbImage) -> Result<(&'static str, Vec<u8>), IoError> {
+    let (png, jpeg) = (paint::png(image)?, jpeg(image)?);
+    Ok(if png.len() <= jpeg.len() {
+        ("png", png)
+    } else {
+        ("jpeg", jpeg)
+    })
 }
 
 fn jpeg(image: &RgbImage) -> Result<Vec<u8>, IoError> {
@@ -110,14 +114,14 @@ pub(super) fn page(title: &str, parts: &[Part]) -> String {
     text
 }
 
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('"', "&quot;")
 }
 
 /// Bytes in the letters of RFC 4648.
-fn base64(bytes: &[u8]) -> String {
+pub(super) fn base64(bytes: &[u8]) -> String {
     const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for three in bytes.chunks(3) {

@@ -1,5 +1,6 @@
-//! Fields of a picture as pictures, as numbers, and side by side on a page.
+//! Fields of a picture as pictures, as numbers, and side by side on a page; results of many pictures on another.
 
+mod cards;
 mod html;
 
 use std::path::{Path, PathBuf};
@@ -12,6 +13,8 @@ use image::RgbImage;
 use crate::numbers::{float_tiff, npy};
 use crate::write::write_whole;
 use crate::{IoError, Picture, paint, ready_folder};
+
+pub use cards::{Card, Cards, Kept, Section};
 
 /// What is written into a folder file by file, and the page that grows with it (`index.html`).
 #[derive(Debug)]

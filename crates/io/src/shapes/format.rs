@@ -338,7 +338,7 @@ pub(super) fn write(
         }
     }
     match format {
-        Format::Csv => Ok(table::to_text(shapes).into_bytes()),
+        Format::Csv => Ok(table::to_text(shapes, &[]).into_bytes()),
         Format::GeoJson => geojson::write(shapes, context),
         Format::Coco => coco::write(shapes, context),
         Format::ImageJ => imagej::write(shapes),

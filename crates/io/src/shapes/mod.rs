@@ -277,7 +277,22 @@ pub fn save_as(
 /// column `ring` has their numbers from 0 on.
 #[must_use]
 pub fn to_text(shapes: &[Shape]) -> String {
-    table::to_text(shapes)
+    table::to_text(shapes, &[])
+}
+
+/// A number for each point of the first ring of each outline, for a column of its own.
+#[derive(Debug, Clone, Copy)]
+pub struct NodeColumn<'a> {
+    /// Its heading.
+    pub name: &'a str,
+    /// The numbers of each outline; an entry is empty where there is none.
+    pub values: &'a [Vec<Option<f64>>],
+}
+
+/// [`to_text`] with more columns behind the others; who reads outlines passes over them.
+#[must_use]
+pub fn to_text_with(shapes: &[Shape], columns: &[NodeColumn<'_>]) -> String {
+    table::to_text(shapes, columns)
 }
 
 /// Write outlines into one table, whole or not at all.

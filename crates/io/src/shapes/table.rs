@@ -10,7 +10,7 @@ use super::format::{Column, Origin, Reading};
 use super::geojson::shift;
 use super::heading::{Columns, is_heading};
 use super::line::Separator;
-use super::{Shape, Shapes};
+use super::{NodeColumn, Shape, Shapes};
 use crate::IoError;
 use crate::limits::MOST_NODES;
 
@@ -61,7 +61,7 @@ pub(super) fn parse_with(text: &str, rule: &TableRule) -> Result<Shapes, IoError
     reader.read(text)
 }
 
-pub(super) fn to_text(shapes: &[Shape]) -> String {
+pub(super) fn to_text(shapes: &[Shape], more: &[NodeColumn<'_>]) -> String {
     let mut text = format!("# contour {VERSION}");
     let closed = shapes.first().and_then(|shape| shape.closed);
     let alike = shapes.iter().all(|shape| shape.closed == closed);
@@ -76,12 +76,16 @@ pub(super) fn to_text(shapes: &[Shape]) -> String {
             text.push_str(column);
         }
     }
+    for column in more {
+        text.push(',');
+        text.push_str(column.name);
+    }
     text.push('\n');
     let names = names(shapes);
-    for (shape, name) in shapes.iter().zip(&names) {
+    for (number, (shape, name)) in shapes.iter().zip(&names).enumerate() {
         let closed = shape.closed.map_or("", |c| if c { "1" } else { "0" });
         for (ring, points) in shape.rings.iter().enumerate() {
-            for p in points {
+            for (node, p) in points.iter().enumerate() {
                 // writing to a String cannot fail
                 let _ = write!(text, "{},{}", p.x, p.y);
                 if several {
@@ -92,6 +96,13 @@ pub(super) fn to_text(shapes: &[Shape]) -> String {
                 }
                 if rings {
                     let _ = write!(text, ",{ring}");
+                }
+                for column in more {
+                    let values = column.values.get(number).filter(|_| ring == 0);
+                    text.push(',');
+                    if let Some(value) = values.and_then(|values| *values.get(node)?) {
+                        let _ = write!(text, "{value}");
+                    }
                 }
                 text.push('\n');
             }
