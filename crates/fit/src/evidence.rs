@@ -56,6 +56,13 @@ pub enum Doubt {
         /// The least that is needed.
         needed: f64,
     },
+    /// The picture is about as steep beside the outline as across it: a slope, not an edge.
+    Slope {
+        /// How steep, against the outline itself.
+        beside: f64,
+        /// The most that an edge may have.
+        most: f64,
+    },
     /// Every curve that was found folds, crosses itself or has collapsed: the start is given back.
     Folded,
 }
@@ -67,6 +74,11 @@ impl fmt::Display for Doubt {
                 f,
                 "unsure: no boundary here that closes; four fifths of the best outline have an edge of {closed:.2} of the \
                  strongest, needed: {needed:.2}"
+            ),
+            Self::Slope { beside, most } => write!(
+                f,
+                "unsure: a slope and no edge; the picture is {beside:.2} as steep beside the outline as across it, which \
+                 must be at most {most:.2}"
             ),
             Self::Folded => f.write_str(
                 "unsure: every outline found folds, crosses itself or has collapsed; this is the start",

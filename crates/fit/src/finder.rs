@@ -19,6 +19,9 @@ const REACH: f64 = 1.5;
 /// The last stage may lose so much of the mean strength of the edge.
 const LOST: f64 = 0.05;
 
+/// An edge must be steeper than what is beside it: that at most so much of it.
+const SLOPE: f64 = 0.8;
+
 /// Nodes of an outline, one a pixel.
 const SPACING: f64 = 1.0;
 
@@ -367,7 +370,12 @@ fn doubt(support: &Support, taken: Option<usize>, rules: &Rules) -> Option<Doubt
         return Some(Doubt::Folded);
     }
     let (closed, needed) = (support.closed, rules.unsure);
-    (closed < needed).then_some(Doubt::NoEdge { closed, needed })
+    if closed < needed {
+        return Some(Doubt::NoEdge { closed, needed });
+    }
+    let (beside, most) = (support.beside, SLOPE);
+    if std::env::var("DBG").is_ok() { eprintln!("BESIDE {beside:.3} {closed:.3} {:.3}", support.polar); }
+    (beside > most).then_some(Doubt::Slope { beside, most })
 }
 
 /// The number of nodes that was asked for.

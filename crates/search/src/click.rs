@@ -14,11 +14,15 @@ const LARGER: f64 = 1.6;
 /// The largest radius, as a share of the picture's shorter side.
 const LARGEST: f64 = 0.5;
 
+/// The power of an outline's size that counts beside its edge: of many small closed curves in noise or texture one has a
+/// strong edge by chance.
+const SIZE: f64 = 0.4;
+
 /// Points of the circles.
 const POINTS: u32 = 64;
 
-/// Look for the outline around a place: circles of growing size are tried, and the outline that is closed best is
-/// taken, the first of equals. None for a place outside the picture.
+/// Look for the outline around a place: circles of growing size are tried, and the outline that is closed best for
+/// its size is taken, the first of equals. None for a place outside the picture.
 #[must_use]
 pub fn find_around(pixels: &dyn Pixels, place: DVec2, rules: &Rules) -> Option<Searched> {
     let (width, height) = pixels.size();
@@ -49,7 +53,7 @@ pub fn find_around(pixels: &dyn Pixels, place: DVec2, rules: &Rules) -> Option<S
         if let Some(found) = found {
             let better = best
                 .as_ref()
-                .is_none_or(|known| found.taken().support.closed > known.taken().support.closed);
+                .is_none_or(|known| worth(&found) > worth(known));
             if better {
                 best = Some(found);
             }
@@ -57,4 +61,11 @@ pub fn find_around(pixels: &dyn Pixels, place: DVec2, rules: &Rules) -> Option<S
         radius *= LARGER;
     }
     best
+}
+
+/// What speaks for an outline among others of other sizes.
+fn worth(found: &Searched) -> f64 {
+    let taken = found.taken();
+    let area = elastic::signed_area(&taken.points).abs();
+    taken.support.whole() * area.sqrt().powf(SIZE)
 }

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::along::{Polygon, smoothed};
-use crate::edges::{Across, percentile, size};
+use crate::edges::{Across, dot, percentile, size};
 use crate::view::View;
 
 /// Points that a curve is judged at.
@@ -14,6 +14,9 @@ const REACH: f64 = 1.5;
 
 /// Places on either side at which it is looked for.
 const LOOKS: i32 = 3;
+
+/// How far inside and outside the curve the picture must be less steep, in radii of the start.
+const BESIDE: f64 = 0.15;
 
 /// Fewer points in the picture say nothing.
 const LEAST: usize = POINTS / 4;
@@ -27,6 +30,9 @@ pub struct Support {
     pub weakest: f64,
     /// Mean strength of the edge. 0 … 1.
     pub edge: f64,
+    /// How steep the picture is a little inside and outside, along the same direction of color, against the edge itself:
+    /// 1 in the middle of a ramp, about 0 beside a step.
+    pub beside: f64,
     /// Length of the mean of the edge's color directions: how much it is of one polarity. 0 … `edge`.
     pub polar: f64,
 }
@@ -52,13 +58,14 @@ pub(crate) fn support(view: &View, curve: &[DVec2], closed: bool, cut: bool) -> 
     let curve = Polygon { points, closed }.evenly(POINTS);
     let mut strengths = Vec::with_capacity(POINTS);
     let mut sum = [0.0; 3];
-    for across in best(view, &curve, cut).into_iter().flatten() {
-        let slope = size(across);
+    let best = best(view, &curve, cut);
+    for across in best.iter().flatten() {
+        let slope = size(*across);
         strengths.push(view.edges.strength(slope));
         let whole = slope + view.edges.half();
         if whole > 0.0 {
             for (sum, one) in sum.iter_mut().zip(across) {
-                *sum += one / whole;
+                *sum += *one / whole;
             }
         }
     }
@@ -67,6 +74,7 @@ pub(crate) fn support(view: &View, curve: &[DVec2], closed: bool, cut: bool) -> 
             closed: 0.0,
             weakest: 0.0,
             edge: 0.0,
+            beside: 1.0,
             polar: 0.0,
         };
     }
@@ -76,7 +84,32 @@ pub(crate) fn support(view: &View, curve: &[DVec2], closed: bool, cut: bool) -> 
         closed: percentile(&mut strengths, 0.2),
         weakest: percentile(&mut strengths, 0.05),
         edge,
+        beside: beside(view, &curve, &best),
         polar: size(sum) / count,
+    }
+}
+
+/// The slopes beside a curve along the directions of its edge, against these.
+fn beside(view: &View, curve: &Polygon, edge: &[Option<Across>]) -> f64 {
+    let normals = curve.normals(1.0);
+    let way = BESIDE * view.radius;
+    let (mut there, mut here) = (0.0, 0.0);
+    for ((p, normal), across) in curve.points.iter().zip(&normals).zip(edge) {
+        let places = [*p - way * *normal, *p + way * *normal];
+        let Some(across) = across.filter(|_| places.iter().all(|p| view.is_known(*p))) else {
+            continue;
+        };
+        let slope = size(across);
+        if slope > 0.0 {
+            let along = |p| dot(view.edges.across(p, *normal), across) / slope;
+            there += 0.5 * places.map(along).iter().sum::<f64>();
+            here += slope;
+        }
+    }
+    if here > 0.0 {
+        (there / here).max(0.0)
+    } else {
+        0.0
     }
 }
 
