@@ -16,11 +16,15 @@
 
 mod all;
 mod auto;
-mod blobs;
 mod contact;
+mod jobs;
+mod judge;
 mod model;
 mod points;
+mod propose;
 mod rays;
+mod region;
+mod relief;
 mod ribbon;
 mod rules;
 mod seeded;
@@ -28,6 +32,7 @@ mod seeds;
 mod select;
 mod spans;
 mod support;
+mod tree;
 
 pub use all::{Instances, Object, outline_all};
 pub use rules::Rules;
