@@ -80,7 +80,8 @@ pub fn outline_all(
             for object in &mut out.objects {
                 object.seed = numbers[object.seed];
             }
-            let is_missing = |at: &usize| out.objects.iter().all(|object| object.seed != *at);
+            let known: Vec<usize> = out.objects.iter().map(|object| object.seed).collect();
+            let is_missing = |at: &usize| known.binary_search(at).is_err();
             out.missing = (0..points.len()).filter(is_missing).collect();
             Ok(out)
         }
@@ -174,7 +175,9 @@ fn finished(
     Instances {
         objects: objects.collect(),
         labels,
-        missing: (0..found.len()).filter(|at| !good.contains(at)).collect(),
+        missing: (0..found.len())
+            .filter(|at| good.binary_search(at).is_err())
+            .collect(),
     }
 }
 

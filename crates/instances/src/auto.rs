@@ -23,10 +23,13 @@ const SIZE: f64 = 1.3;
 const DIM: f64 = 0.05;
 
 /// Price of an object, as a share of what objects are worth otherwise.
-const PRICE: f64 = 0.25;
+const PRICE: f64 = 0.3;
 
 /// The whole price is paid by objects of this share of the usual contrast; by those of more, with its square less.
-const STRONG: f64 = 0.4;
+const STRONG: f64 = 0.45;
+
+/// From so many pixels on, half a picture tells first whether objects are light or dark.
+const LARGE: usize = 1_000_000;
 
 /// Rounds of looking at what the objects chosen leave of other regions.
 const ROUNDS: usize = 2;
@@ -97,8 +100,13 @@ pub(crate) fn fields(pixels: &dyn Pixels) -> [Field; 2] {
     let levels = [1.0, -1.0].map(|sign| reliefs(&whole, direction.map(|v| sign * v)));
     let count = levels[0].len();
     // the two of a scale beside each other, the finest first
+    let better = better(&levels, pixels.size());
     let found = jobs::map(2 * count, |at| {
-        propose(&levels[at % 2][at / 2], at / 2 + 1 == count)
+        let (side, level) = (at % 2, at / 2);
+        if better.is_some_and(|better| better != side) {
+            return Vec::new();
+        }
+        propose(&levels[side][level], level == 0, level + 1 == count)
     });
     let later = found.into_iter().enumerate();
     let size = pixels.size();
@@ -113,6 +121,22 @@ pub(crate) fn fields(pixels: &dyn Pixels) -> [Field; 2] {
     let [a, b] = all;
     let [first, second] = levels;
     [(first, a), (second, b)].map(|(levels, all)| Field { size, levels, all })
+}
+
+/// Of a large picture, whether objects are lighter or darker, as its half tells.
+fn better(levels: &[Vec<Relief>; 2], size: (usize, usize)) -> Option<usize> {
+    if size.0 * size.1 < LARGE || levels[0].len() < 3 {
+        return None;
+    }
+    let sums = jobs::map(2, |side| {
+        let relief = &levels[side][1];
+        let found = propose(relief, true, false).into_iter();
+        let all: Vec<Candidate> = found
+            .map(|one| Candidate::of(one, 1, relief, size))
+            .collect();
+        choose(&all).0
+    });
+    Some(usize::from(sums[1] > sums[0]))
 }
 
 impl Field {
@@ -164,35 +188,52 @@ pub(crate) fn auto(pixels: &dyn Pixels) -> Vec<Spans> {
 
 /// The region of each point that is worth most, with the sum of what they are worth.
 pub(crate) fn with_points(all: &[Candidate], points: &[DVec2]) -> (f64, Vec<Option<Spans>>) {
+    let places = places(points);
     let own: Vec<Candidate> = all
         .iter()
-        .filter(|one| only(&one.spans, points).is_some())
+        .filter(|one| only(&one.spans, &places).is_some())
         .cloned()
         .collect();
     let (sum, chosen) = choose(&own);
     let mut out = vec![None; points.len()];
     for spans in chosen {
-        if let Some(at) = only(&spans, points) {
+        if let Some(at) = only(&spans, &places) {
             out[at] = Some(spans);
         }
     }
     (sum, out)
 }
 
-/// The only one of some points in a region.
+/// Points by the pixels they lie in, in rows: row, column and number.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "a place in the picture"
 )]
-fn only(spans: &Spans, points: &[DVec2]) -> Option<usize> {
-    let within = |p: &DVec2| {
+fn places(points: &[DVec2]) -> Vec<(usize, usize, usize)> {
+    let place = |(at, p): (usize, &DVec2)| {
         let p = p.round().max(DVec2::ZERO);
-        spans.holds(p.y as usize, p.x as usize)
+        (p.y as usize, p.x as usize, at)
     };
-    let mut all = (0..points.len()).filter(|&at| within(&points[at]));
-    let first = all.next();
-    first.filter(|_| all.next().is_none())
+    let mut out: Vec<_> = points.iter().enumerate().map(place).collect();
+    out.sort_unstable();
+    out
+}
+
+/// The only one of some points in a region.
+fn only(spans: &Spans, places: &[(usize, usize, usize)]) -> Option<usize> {
+    let mut found = None;
+    for &(row, from, to) in &spans.0 {
+        let first = places.partition_point(|one| (one.0, one.1) < (row, from));
+        let own = places[first..].iter();
+        for &(.., at) in own.take_while(|one| one.0 == row && one.1 < to) {
+            if found.is_some() {
+                return None;
+            }
+            found = Some(at);
+        }
+    }
+    found
 }
 
 /// Choose among regions, and again when it is known what contrast objects have; with the sum of what they are worth.

@@ -24,6 +24,10 @@ const RISE: f64 = 0.03;
 /// A component whose border is longer than this, squared and against its area, is none. 20 for a disk.
 const WINDING: f64 = 200.0;
 
+/// A component of more peaks than this is looked at where it is so many times as large as those in it.
+const MANY: u32 = 16;
+const GROWN: f64 = 1.2;
+
 /// So many components around one are looked at.
 const NESTED: usize = 32;
 
@@ -63,16 +67,16 @@ struct Search<'a> {
     out: Vec<Proposal>,
 }
 
-/// Regions of one grid that may be objects. `last` for the coarsest.
+/// Regions of one grid that may be objects. `first` for the finest, `last` for the coarsest.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "clamped to the range of the levels"
 )]
-pub(crate) fn propose(relief: &Relief, last: bool) -> Vec<Proposal> {
+pub(crate) fn propose(relief: &Relief, first: bool, last: bool) -> Vec<Proposal> {
     let width = relief.dim().1;
     let (values, step, ground) = relief.steps();
-    let least = least(relief);
+    let least = least(first);
     let rise = NOISE * relief.noise / step;
     let counts = |peak: u16, level: u16, _: usize| {
         f64::from(peak - level) >= rise.max(RISE * f64::from(peak.saturating_sub(ground)))
@@ -80,13 +84,15 @@ pub(crate) fn propose(relief: &Relief, last: bool) -> Vec<Proposal> {
     let terrain = Terrain {
         values: &values,
         width,
-        floor: 0,
+        floor: relief.floor(step),
     };
     let tree = Tree::of(terrain, least, counts);
-    let mut search = Search::new(relief, last, values);
+    let mut search = Search::new(relief, least, last, values);
     // a fall along the border that noise alone may give
     let fall = 0.5 * NOISE * relief.noise / step;
     let most = CLUSTER * search.most;
+    // the largest component that was looked at in each branch
+    let mut looked = vec![0_usize; tree.branches.len()];
     for (at, branch) in tree.branches.iter().enumerate() {
         let fits = |stage: &&Stage| {
             stage.fall >= fall
@@ -95,7 +101,13 @@ pub(crate) fn propose(relief: &Relief, last: bool) -> Vec<Proposal> {
         };
         let stages: Vec<Stage> = branch.stages.iter().filter(fits).copied().collect();
         let mut inner: Option<Region> = None;
+        let many = branch.leaves.1 - branch.leaves.0 > MANY;
         for stage in &stages {
+            // one more in a large cluster is nothing new
+            if many && (stage.area as f64) < GROWN * looked[at] as f64 {
+                continue;
+            }
+            looked[at] = looked[at].max(stage.area);
             let Some(region) = search.above(branch, stage.level, |_| true) else {
                 continue;
             };
@@ -111,6 +123,9 @@ pub(crate) fn propose(relief: &Relief, last: bool) -> Vec<Proposal> {
             inner = Some(region.clone());
             search.divide(&region);
             search.add(region);
+        }
+        if let Some(parent) = branch.parent {
+            looked[parent] = looked[parent].max(looked[at]);
         }
         // the level of a component around this one at which both have the steepest border
         let own = stages.iter().fold(0.0, |most: f64, one| most.max(one.fall));
@@ -145,7 +160,7 @@ pub(crate) fn rests(
     regions: &[&Region],
     taken: impl Fn(usize, usize) -> bool,
 ) -> Vec<Proposal> {
-    let mut search = Search::new(relief, last, Vec::new());
+    let mut search = Search::new(relief, least(relief.times == 1), last, Vec::new());
     let width = search.width;
     let near = |x: usize, y: usize| {
         (x.saturating_sub(1)..=x + 1).any(|i| (y.saturating_sub(1)..=y + 1).any(|j| taken(i, j)))
@@ -164,13 +179,13 @@ pub(crate) fn rests(
     search.out
 }
 
-/// The least area of objects in a grid.
-const fn least(relief: &Relief) -> usize {
-    if relief.times == 1 { SMALLEST } else { SMALL }
+/// The least area of objects in a grid, the finest or another.
+const fn least(first: bool) -> usize {
+    if first { SMALLEST } else { SMALL }
 }
 
 impl<'a> Search<'a> {
-    fn new(relief: &'a Relief, last: bool, values: Vec<u16>) -> Self {
+    fn new(relief: &'a Relief, least: usize, last: bool, values: Vec<u16>) -> Self {
         let (height, width) = relief.dim();
         let half = 0.4 * width.min(height) as f64;
         let radius = if last { half } else { RADIUS.min(half) };
@@ -180,7 +195,7 @@ impl<'a> Search<'a> {
             round: 0,
             values,
             width,
-            least: least(relief),
+            least,
             most: std::f64::consts::PI * radius * radius,
             out: Vec::new(),
         }

@@ -9,6 +9,11 @@ const SIGMA: f64 = 1.0;
 /// Share of the pixels that are not above the ground.
 const GROUND: f64 = 0.2;
 
+/// Share of the pixels that are lower than the ground anywhere, and how many standard deviations of noise the level of
+/// an object's border lies above it at least.
+const LOWEST: f64 = 0.02;
+const ABOVE: f64 = 4.0;
+
 /// Standard deviation that a Gaussian of that σ leaves of white noise of 1.
 const LEFT: f64 = 0.282_094_791_773_878_14 / SIGMA;
 
@@ -54,6 +59,21 @@ impl Relief {
             .iter()
             .map(|v| ((v - low) / step).round() as u16);
         (values.collect(), step, (-low / step).round() as u16)
+    }
+}
+
+impl Relief {
+    /// The number of the height below which there is no half height of an object that noise does not explain.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped by its range"
+    )]
+    pub(crate) fn floor(&self, step: f64) -> u16 {
+        let mut list: Vec<f64> = self.heights.iter().copied().collect();
+        let low = list.iter().fold(f64::INFINITY, |low, v| low.min(*v));
+        let least = quantile(&mut list, LOWEST) + ABOVE * self.noise;
+        ((least - low) / step).clamp(0.0, 65_000.0) as u16
     }
 }
 

@@ -87,15 +87,6 @@ impl Spans {
         Some(Circle { center, radius })
     }
 
-    /// Whether a pixel belongs to it.
-    pub(crate) fn holds(&self, row: usize, column: usize) -> bool {
-        let first = self
-            .0
-            .partition_point(|span| (span.0, span.2) <= (row, column));
-        let next = self.0.get(first);
-        next.is_some_and(|&(y, from, _)| y == row && from <= column)
-    }
-
     /// All pixels.
     pub(crate) fn pixels(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let all = self.0.iter();

@@ -141,11 +141,13 @@ impl Tree {
         let mut parts: Vec<Option<Part>> = Vec::new();
         let mut free: Vec<u32> = Vec::new();
         let mut branches: Vec<(Branch, Vec<usize>, u32)> = Vec::new();
+        // components beside a pixel: their roots, and their numbers
+        let (mut roots, mut list): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
         for at in sorted(terrain) {
             let level = values[at];
             let (mut sides, mut fall) = (0_usize, 0.0);
             let mut inner = 0;
-            let mut roots: Vec<u32> = Vec::with_capacity(4);
+            roots.clear();
             let mut highest: Option<usize> = None;
             for q in beside(at, width, count) {
                 let apart = f64::from(values[q]) - f64::from(level);
@@ -166,7 +168,8 @@ impl Tree {
             up[at] = at as u32;
             let own = if let Some(highest) = highest {
                 leaf[at] = leaf[highest];
-                let mut list: Vec<u32> = roots.iter().map(|root| part_of[*root as usize]).collect();
+                list.clear();
+                list.extend(roots.iter().map(|root| part_of[*root as usize]));
                 list.sort_by_key(|one| {
                     let peak = parts[*one as usize].as_ref().map_or(0, |part| part.peak);
                     (std::cmp::Reverse(values[peak]), peak)
