@@ -26,7 +26,7 @@ const DIM: f64 = 0.05;
 const PRICE: f64 = 0.3;
 
 /// The whole price is paid by objects of this share of the usual contrast; by those of more, with its square less.
-const STRONG: f64 = 0.45;
+const STRONG: f64 = 0.35;
 
 /// From so many pixels on, half a picture tells first whether objects are light or dark.
 const LARGE: usize = 1_000_000;
