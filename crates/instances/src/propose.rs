@@ -297,15 +297,32 @@ impl<'a> Search<'a> {
         if tree.branches.len() < 2 {
             return;
         }
-        for branch in 0..tree.branches.len() {
-            if tree.branches[branch].parent.is_none() {
+        // each part from its deepest place, so that what a part costs is its own size
+        let mut reached = vec![usize::MAX; values.len()];
+        for (number, branch) in tree.branches.iter().enumerate() {
+            if branch.parent.is_none() {
                 continue;
             }
-            let keep = |x: usize, y: usize| {
-                let place = (y + top - region.top) * dim.1 + x + left - region.left;
-                tree.holds(branch, place)
-            };
-            let part = region.part(keep, self.width);
+            let mut found = vec![branch.peak];
+            reached[branch.peak] = number;
+            let mut next = 0;
+            while let Some(&at) = found.get(next) {
+                next += 1;
+                for q in beside(at, dim.1, values.len()) {
+                    if reached[q] != number && tree.holds(number, q) {
+                        reached[q] = number;
+                        found.push(q);
+                    }
+                }
+            }
+            if found.len() as f64 > self.most {
+                continue;
+            }
+            for at in &mut found {
+                let (y, x) = (*at / dim.1, *at % dim.1);
+                *at = (y + region.top - top) * self.width + x + region.left - left;
+            }
+            let part = Region::of(&found, self.width);
             let part = part.and_then(|part| part.smoothed(self.width));
             part.into_iter().for_each(|part| self.add(part));
         }
