@@ -5,12 +5,13 @@ use glam::DVec2;
 use ndarray::Array2;
 use search::along::Polygon;
 
-use crate::auto::{auto, circle};
+use crate::auto::auto;
 use crate::contact::{joined, labelled};
 use crate::points::about_points;
 use crate::rules::Rules;
 use crate::seeded::{Found, seeded};
 use crate::seeds::{Circle, SeedError, Seeds, circles};
+use crate::spans::Spans;
 use crate::support::Support;
 
 /// Distance of nodes, and over how long a way an outline is rough by the search, for the last stage. Pixels.
@@ -59,45 +60,67 @@ pub fn outline_all(
     rules: &Rules,
 ) -> Result<Instances, SeedError> {
     seeds.check(pixels)?;
-    // the numbers of the seeds that are looked at, where some are known to be none
-    let mut numbers: Option<Vec<usize>> = None;
-    let (circles, known): (Vec<Circle>, Option<Vec<Vec<DVec2>>>) = match seeds {
+    let size = pixels.size();
+    match seeds {
+        Seeds::Circles(list) => {
+            let found = seeded(pixels, list, None, rules);
+            Ok(finished(pixels, list, &found, rules))
+        }
+        Seeds::Labels(labels) => {
+            let circles = circles(labels);
+            let found = seeded(pixels, &circles, None, rules);
+            Ok(finished(pixels, &circles, &found, rules))
+        }
         Seeds::Points(points) => {
-            let found = about_points(pixels, points, rules);
+            let found = about_points(pixels, points);
             let there = |at: &usize| found[*at].is_some();
-            numbers = Some((0..points.len()).filter(there).collect());
-            let curves: Vec<Vec<DVec2>> =
-                found.into_iter().flatten().map(|one| one.curve).collect();
-            (
-                curves.iter().map(|curve| circle(curve)).collect(),
-                Some(curves),
-            )
+            let numbers: Vec<usize> = (0..points.len()).filter(there).collect();
+            let regions: Vec<Spans> = found.into_iter().flatten().collect();
+            let mut out = within(pixels, &regions, size, rules);
+            for object in &mut out.objects {
+                object.seed = numbers[object.seed];
+            }
+            let known: Vec<usize> = out.objects.iter().map(|object| object.seed).collect();
+            let is_missing = |at: &usize| known.binary_search(at).is_err();
+            out.missing = (0..points.len()).filter(is_missing).collect();
+            Ok(out)
         }
-        Seeds::Circles(list) => (list.clone(), None),
-        Seeds::Labels(labels) => (circles(labels), None),
         Seeds::Auto => {
-            let mut found = auto(pixels, rules);
-            found.sort_by(|a, b| {
-                let (a, b) = (circle(&a.curve).center, circle(&b.curve).center);
-                a.y.total_cmp(&b.y).then(a.x.total_cmp(&b.x))
-            });
-            let circles = found.iter().map(|one| circle(&one.curve)).collect();
-            (
-                circles,
-                Some(found.into_iter().map(|one| one.curve).collect()),
-            )
+            let mut found: Vec<(DVec2, Spans)> = auto(pixels)
+                .into_iter()
+                .map(|one| {
+                    (
+                        one.circle().map_or(DVec2::ZERO, |circle| circle.center),
+                        one,
+                    )
+                })
+                .collect();
+            found.sort_by(|(a, _), (b, _)| a.y.total_cmp(&b.y).then(a.x.total_cmp(&b.x)));
+            let found: Vec<Spans> = found.into_iter().map(|(_, one)| one).collect();
+            Ok(within(pixels, &found, size, rules))
         }
-    };
-    let found = seeded(pixels, &circles, known.as_deref(), rules);
-    let mut out = finished(pixels, &circles, &found, rules);
-    if let (Some(numbers), Seeds::Points(points)) = (numbers, seeds) {
-        for object in &mut out.objects {
-            object.seed = numbers[object.seed];
-        }
-        let is_missing = |at: &usize| out.objects.iter().all(|object| object.seed != *at);
-        out.missing = (0..points.len()).filter(is_missing).collect();
     }
-    Ok(out)
+}
+
+/// The outlines of objects that some regions cover roughly.
+fn within(
+    pixels: &dyn Pixels,
+    regions: &[Spans],
+    (width, height): (usize, usize),
+    rules: &Rules,
+) -> Instances {
+    let circles: Vec<Circle> = regions.iter().filter_map(Spans::circle).collect();
+    let mut labels = Array2::<u32>::zeros((height, width));
+    // the smaller above the larger
+    let mut order: Vec<usize> = (0..regions.len()).collect();
+    order.sort_by_key(|&at| (std::cmp::Reverse(regions[at].area()), at));
+    for at in order {
+        for place in regions[at].pixels() {
+            labels[place] = u32::try_from(at + 1).unwrap_or(u32::MAX);
+        }
+    }
+    let found = seeded(pixels, &circles, Some(&labels), rules);
+    finished(pixels, &circles, &found, rules)
 }
 
 /// Outlines on their edges, with common borders, and their labels.
@@ -152,7 +175,9 @@ fn finished(
     Instances {
         objects: objects.collect(),
         labels,
-        missing: (0..found.len()).filter(|at| !good.contains(at)).collect(),
+        missing: (0..found.len())
+            .filter(|at| good.binary_search(at).is_err())
+            .collect(),
     }
 }
 

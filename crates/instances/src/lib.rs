@@ -8,19 +8,26 @@
 //! 4. **Last stage.** An outline that is large against the blur of its edge is moved onto it below a pixel.
 //! 5. **Contact.** Outlines that overlap or nearly touch get one common border.
 //!
-//! Automatic seeds are blobs over all sizes, lighter or darker than their surroundings. About each the best outline is
-//! found, and of all outlines the set without overlap is chosen whose worth is largest: length times edge and
-//! likelihood, less for one that is not convex. One outline is tried for two neighbours, and several for one.
+//! Without seeds, or with points, regions are proposed first: the components above each level of the smoothed picture,
+//! nested in each other, at the levels where their borders are steepest; their parts around each peak and each depth;
+//! and what is left of them beside objects already chosen. Each is judged by the share of its border that is an edge
+//! against its own contrast, by its shape, and by its contrast against noise and against that of the others. The set
+//! without much overlap that is worth most in all is chosen, of light or of dark objects, whichever is worth more; a
+//! point chooses among the regions that hold no other. A region then stands for its seed in steps 2 to 5.
 //!
 //! Units: pixels, x to the right and y down, the first pixel's center at (0, 0).
 
 mod all;
 mod auto;
-mod blobs;
 mod contact;
+mod jobs;
+mod judge;
 mod model;
 mod points;
+mod propose;
 mod rays;
+mod region;
+mod relief;
 mod ribbon;
 mod rules;
 mod seeded;
@@ -28,6 +35,7 @@ mod seeds;
 mod select;
 mod spans;
 mod support;
+mod tree;
 
 pub use all::{Instances, Object, outline_all};
 pub use rules::Rules;

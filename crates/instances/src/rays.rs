@@ -15,16 +15,11 @@ pub(crate) struct Grain {
     bend: f64,
 }
 
-/// For outlines to keep, and for many to choose from.
+/// For outlines to keep.
 pub(crate) const FINE: Grain = Grain {
     rays: 48,
     places: 40,
     bend: 1.0,
-};
-pub(crate) const COARSE: Grain = Grain {
-    rays: 32,
-    places: 27,
-    bend: 1.5,
 };
 
 /// Where the places on a ray begin and end, in inner radii.
@@ -33,24 +28,6 @@ const TO: f64 = 3.2;
 
 /// Places that a step may lead from one ray to the next.
 const REACH: usize = 3;
-
-/// Rays and places that a seed is tried at first.
-const FEW_RAYS: usize = 16;
-const FEW_PLACES: usize = 14;
-
-/// The most that the mean edge of any outline about a seed may be, as a few rays tell it, for a slope that counts as
-/// half an edge in the picture as a whole.
-pub(crate) fn promise(model: &Model<'_>, seed: &Seed) -> f64 {
-    let half = model.half(&mut []);
-    let most = |i: usize| {
-        let ray = DVec2::from_angle(i as f64 * std::f64::consts::TAU / FEW_RAYS as f64);
-        let share = |k: usize| FROM + (TO - FROM) * k as f64 / (FEW_PLACES - 1) as f64;
-        let slopes =
-            (0..FEW_PLACES).map(|k| model.signed(seed.center + share(k) * seed.inner * ray, ray));
-        strength(slopes.fold(0.0, f64::max), half)
-    };
-    (0..FEW_RAYS).map(most).sum::<f64>() / FEW_RAYS as f64
-}
 
 /// The points of the best outline, and the slope that counts as half an edge there.
 pub(crate) fn rays(

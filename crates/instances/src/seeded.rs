@@ -2,8 +2,10 @@
 
 use field::Pixels;
 use glam::DVec2;
+use ndarray::Array2;
 use search::whole::{Whole, quantile};
 
+use crate::jobs;
 use crate::model::{Model, Seed};
 use crate::rays::{FINE, rays};
 use crate::ribbon::ribbon;
@@ -34,7 +36,7 @@ pub(crate) struct Found {
 }
 
 /// The scale at which objects of some inner radii are looked at.
-pub(crate) fn scale_for(pixels: &dyn Pixels, circles: &[Circle]) -> f64 {
+fn scale_for(pixels: &dyn Pixels, circles: &[Circle]) -> f64 {
     let mut radii: Vec<f64> = circles.iter().map(|circle| 2.0 * circle.radius).collect();
     let (width, height) = pixels.size();
     let most = (MOST_PIXELS / (width as f64 * height as f64))
@@ -44,7 +46,7 @@ pub(crate) fn scale_for(pixels: &dyn Pixels, circles: &[Circle]) -> f64 {
 }
 
 /// Seeds at the scale of a model, with those near each.
-pub(crate) fn seeds(whole: &Whole, circles: &[Circle]) -> Vec<Seed> {
+fn seeds(whole: &Whole, circles: &[Circle]) -> Vec<Seed> {
     let scale = whole.scale();
     let largest = circles
         .iter()
@@ -60,8 +62,10 @@ pub(crate) fn seeds(whole: &Whole, circles: &[Circle]) -> Vec<Seed> {
     });
     let mut out: Vec<Seed> = circles
         .iter()
-        .map(|circle| Seed {
+        .zip(1..)
+        .map(|(circle, number)| Seed {
             center: whole.inward(circle.center),
+            number,
             inner: scale * circle.radius,
             rivals: Vec::new(),
         })
@@ -86,10 +90,7 @@ pub(crate) fn seeds(whole: &Whole, circles: &[Circle]) -> Vec<Seed> {
 }
 
 /// Pixels of a model inside of curves.
-pub(crate) fn mask<'a>(
-    dim: (usize, usize),
-    curves: impl Iterator<Item = &'a [DVec2]>,
-) -> Vec<bool> {
+fn mask<'a>(dim: (usize, usize), curves: impl Iterator<Item = &'a [DVec2]>) -> Vec<bool> {
     let mut inside = vec![false; dim.0 * dim.1];
     for curve in curves {
         for (row, from, to) in Spans::of(curve, dim).0 {
@@ -132,26 +133,45 @@ fn first_model<'a>(whole: &'a Whole, seeds: &[Seed], known: Option<Vec<bool>>) -
     }
     Model {
         whole,
+        owners: None,
         likelihood: Some(whole.likelihood(&inside, &outside)),
         polarity: whole.polarity(&inside, &outside),
     }
 }
 
 /// The model of a picture by outlines found in it.
-pub(crate) fn learnt<'a>(whole: &'a Whole, inside: &[bool]) -> Model<'a> {
+fn learnt<'a>(whole: &'a Whole, inside: &[bool]) -> Model<'a> {
     let outside: Vec<bool> = inside.iter().map(|inside| !inside).collect();
     Model {
         whole,
+        owners: None,
         likelihood: Some(whole.likelihood(inside, &outside)),
         polarity: whole.polarity(inside, &outside),
     }
 }
 
-/// The outline about each seed; None where there is no path. `known` are polygons that cover the objects roughly.
+/// Labels of a picture at the scale of a model.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to the picture first"
+)]
+fn scaled(whole: &Whole, labels: &Array2<u32>) -> Array2<u32> {
+    let (height, width) = labels.dim();
+    let last = DVec2::new(width as f64 - 1.0, height as f64 - 1.0);
+    Array2::from_shape_fn(whole.dim(), |(y, x)| {
+        let p = whole.outward(DVec2::new(x as f64, y as f64));
+        let p = p.round().clamp(DVec2::ZERO, last);
+        labels[[p.y as usize, p.x as usize]]
+    })
+}
+
+/// The outline about each seed; None where there is no path. `known` are labels that cover the objects roughly, in
+/// the order of the seeds.
 pub(crate) fn seeded(
     pixels: &dyn Pixels,
     circles: &[Circle],
-    known: Option<&[Vec<DVec2>]>,
+    known: Option<&Array2<u32>>,
     rules: &Rules,
 ) -> Vec<Option<Found>> {
     if circles.is_empty() {
@@ -159,33 +179,28 @@ pub(crate) fn seeded(
     }
     let whole = Whole::new(pixels, scale_for(pixels, circles));
     let seeds = seeds(&whole, circles);
-    let known = known.map(|curves| {
-        let own: Vec<Vec<DVec2>> = curves
-            .iter()
-            .map(|curve| curve.iter().map(|p| whole.inward(*p)).collect())
-            .collect();
-        mask(whole.dim(), own.iter().map(Vec::as_slice))
-    });
-    let mut model = first_model(&whole, &seeds, known);
+    let owners = known.map(|labels| scaled(&whole, labels));
+    let inside = owners
+        .as_ref()
+        .map(|owners| owners.iter().map(|owner| *owner > 0).collect());
+    let mut model = first_model(&whole, &seeds, inside);
+    model.owners.clone_from(&owners);
     let mut found: Vec<Option<(Vec<DVec2>, f64)>> = Vec::new();
     for round in 0..ROUNDS {
         if round > 0 {
             let curves = found.iter().flatten().map(|(curve, _)| curve.as_slice());
             model = learnt(&whole, &mask(whole.dim(), curves));
+            model.owners.clone_from(&owners);
         }
-        found = seeds
-            .iter()
-            .map(|seed| rays(&model, seed, FINE, rules))
-            .collect();
+        found = jobs::map(seeds.len(), |at| rays(&model, &seeds[at], FINE, rules));
     }
-    let both = seeds.iter().zip(found);
-    both.map(|(seed, found)| {
-        let (curve, half) = found?;
-        let curve = ribbon(&model, seed, &curve, half, rules).unwrap_or(curve);
+    let found = &found;
+    jobs::map(seeds.len(), |at| {
+        let (seed, (curve, half)) = (&seeds[at], found[at].as_ref()?);
+        let curve = ribbon(&model, seed, curve, *half, rules).unwrap_or_else(|| curve.clone());
         Some(Found {
-            support: support(&model, seed, &curve, half),
+            support: support(&model, seed, &curve, *half),
             curve: curve.iter().map(|p| whole.outward(*p)).collect(),
         })
     })
-    .collect()
 }

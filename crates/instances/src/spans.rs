@@ -2,6 +2,8 @@
 
 use glam::DVec2;
 
+use crate::seeds::Circle;
+
 /// Spans of pixels: row, first column, and the column behind the last; by rows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Spans(pub Vec<(usize, usize, usize)>);
@@ -65,6 +67,24 @@ impl Spans {
             }
         }
         sum
+    }
+
+    /// The circle of a seed in it: half the size of its area, about the pixel nearest to its middle.
+    pub(crate) fn circle(&self) -> Option<Circle> {
+        let place = |(y, x): (usize, usize)| DVec2::new(x as f64, y as f64);
+        let area = self.area() as f64;
+        let middle = self.pixels().map(place).sum::<DVec2>() / area;
+        let nearest = self.pixels().map(place).min_by(|a, b| {
+            let (a, b) = (a.distance_squared(middle), b.distance_squared(middle));
+            a.total_cmp(&b)
+        })?;
+        let center = if nearest.distance(middle) < 1.0 {
+            middle
+        } else {
+            nearest
+        };
+        let radius = 0.5 * (area / std::f64::consts::PI).sqrt();
+        Some(Circle { center, radius })
     }
 
     /// All pixels.

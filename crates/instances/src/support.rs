@@ -55,7 +55,7 @@ pub(crate) fn support(model: &Model<'_>, seed: &Seed, curve: &[DVec2], half: f64
             .map(|way| model.signed(*p + way * normal, normal))
             .fold(0.0, f64::max);
         let own = strength(slope, half);
-        if seed.is_of_rival(*p + 0.5 * wide * normal) {
+        if model.is_of_rival(seed, *p + 0.5 * wide * normal) {
             strengths.push(own.max(CONTACT));
             continue;
         }

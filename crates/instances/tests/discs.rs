@@ -127,7 +127,11 @@ fn touching_circles_are_kept_apart_from_seeds() {
 
 #[test]
 fn touching_circles_are_found_without_seeds() {
-    for (circles, levels, seed) in [(two(), vec![200.0; 2], 21), (two(), vec![200.0, 120.0], 23)] {
+    for (circles, levels, seed) in [
+        (two(), vec![200.0; 2], 21),
+        (seven(), vec![200.0; 7], 22),
+        (two(), vec![200.0, 120.0], 23),
+    ] {
         let found = find(drawn(&circles, &levels, seed), &Seeds::Auto);
         assert_eq!(found.objects.len(), circles.len(), "seed {seed}");
         let iou = worst(&found, &circles);
