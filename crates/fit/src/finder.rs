@@ -65,7 +65,7 @@ pub(crate) fn found(prepared: &Prepared, start: &Contour) -> Result<Fit, FitErro
         closed: curve.closed,
     };
     let support = searched.support(&outline);
-    let doubt = doubt(&support, taken, rules);
+    let doubt = doubt(&support, taken, edge.is_some(), rules);
     let strengths = searched.strengths(&outline);
     let blur = edge.map_or(1.0, |edge| edge.blur);
     let node = |i: usize| {
@@ -364,8 +364,8 @@ fn precise(
     precise
 }
 
-/// Why a search is not sure.
-fn doubt(support: &Support, taken: Option<usize>, rules: &Rules) -> Option<Doubt> {
+/// Why a search is not sure; `stepped`: whether the last stage found a step across the outline.
+fn doubt(support: &Support, taken: Option<usize>, stepped: bool, rules: &Rules) -> Option<Doubt> {
     if taken.is_none() {
         return Some(Doubt::Folded);
     }
@@ -374,8 +374,7 @@ fn doubt(support: &Support, taken: Option<usize>, rules: &Rules) -> Option<Doubt
         return Some(Doubt::NoEdge { closed, needed });
     }
     let (beside, most) = (support.beside, SLOPE);
-    if std::env::var("DBG").is_ok() { eprintln!("BESIDE {beside:.3} {closed:.3} {:.3}", support.polar); }
-    (beside > most).then_some(Doubt::Slope { beside, most })
+    (!stepped && beside > most).then_some(Doubt::Slope { beside, most })
 }
 
 /// The number of nodes that was asked for.

@@ -14,7 +14,7 @@ const LARGER: f64 = 1.6;
 /// The largest radius, as a share of the picture's shorter side.
 const LARGEST: f64 = 0.5;
 
-/// The power of an outline's size that counts beside its edge: of many small closed curves in noise or texture one has a
+/// The power of an outline's radius that counts beside its edge: of many small closed curves in noise or texture one has a
 /// strong edge by chance.
 const SIZE: f64 = 0.4;
 
@@ -63,9 +63,8 @@ pub fn find_around(pixels: &dyn Pixels, place: DVec2, rules: &Rules) -> Option<S
     best
 }
 
-/// What speaks for an outline among others of other sizes.
+/// What speaks for an outline among others of other sizes: that of the start counts that it was found from.
 fn worth(found: &Searched) -> f64 {
-    let taken = found.taken();
-    let area = elastic::signed_area(&taken.points).abs();
-    taken.support.whole() * area.sqrt().powf(SIZE)
+    let radius = found.seen.radius * found.pixel;
+    found.taken().support.whole() * radius.powf(SIZE)
 }
