@@ -19,7 +19,7 @@ const SPACING: f64 = 1.0;
 const ROUGH: f64 = 2.0;
 
 /// The last stage needs an object of at least so many blurs of its edge, or its levels inside cannot be measured.
-const ROOM: f64 = 12.0;
+const ROOM: f64 = 8.0;
 
 /// An object of a picture.
 #[derive(Debug, Clone, PartialEq)]
