@@ -1,5 +1,7 @@
 //! The method of searches as a library user sees it: outcomes, starts of every kind, what is told.
 
+mod common;
+
 use fit::{Choices, Contour, Doubt, Image, Nodes, OptionKey, Options, Prepared, fit};
 use glam::DVec2;
 
@@ -272,4 +274,47 @@ fn a_polarity_that_is_asked_for_is_kept() {
     options.search.sign = search::Sign::Darker;
     let found = fit(&disc(), &start, &options).unwrap();
     assert!(!found.is_outline(), "{}", found.chosen);
+}
+
+#[test]
+fn a_slope_is_no_boundary_however_steep() {
+    let center = DVec2::new(50.0, 50.0);
+    let along = |(_, x): (usize, usize)| 2.0 * x as f64;
+    let out = |(y, x): (usize, usize)| 4.0 * DVec2::new(x as f64, y as f64).distance(center);
+    for levels in [
+        field::Grid::from_shape_fn((100, 100), along),
+        field::Grid::from_shape_fn((100, 100), out),
+    ] {
+        for start in [Contour::circle(center, 25.0), Contour::circle(center, 33.0)] {
+            let found = fit(&Image::grey(levels.clone()), &start, &Options::default()).unwrap();
+            let doubt = found.quality.as_ref().and_then(|quality| quality.doubt);
+            assert!(!found.is_outline() && doubt.is_some(), "{}", found.chosen);
+        }
+    }
+}
+
+#[test]
+fn a_click_finds_the_whole_of_an_ellipse() {
+    let (center, axes) = (DVec2::new(60.0, 45.0), DVec2::new(32.0, 15.0));
+    let inside = |p: DVec2| ((p - center) / axes).length() < 1.0;
+    let image = Image::grey(common::drawn((120, 90), inside));
+    let truth = std::f64::consts::PI * axes.x * axes.y;
+    for (x, y) in [
+        (0.0, 0.0),
+        (-6.0, 1.0),
+        (9.0, -3.0),
+        (0.0, 6.0),
+        (-14.0, 0.0),
+    ] {
+        let start = Contour {
+            points: vec![center + DVec2::new(x, y)],
+            closed: true,
+        };
+        let found = fit(&image, &start, &Options::default()).unwrap();
+        let area = elastic::signed_area(&found.contour.points).abs();
+        assert!(
+            (area / truth - 1.0).abs() < 0.01,
+            "{x} {y}: {area} of {truth}"
+        );
+    }
 }

@@ -16,6 +16,9 @@ pub(crate) const RADIUS: f64 = 64.0;
 /// The most a small object is enlarged.
 const MOST_ENLARGED: f64 = 1.5;
 
+/// Levels of fewer steps than this from the lowest to the highest are those of a drawing.
+const FEWEST: f64 = 6.0;
+
 /// A window of a picture: channels of equal size, L\*a\*b\* of a color picture, one of a grey one.
 #[derive(Debug)]
 pub(crate) struct Frame {
@@ -112,11 +115,18 @@ impl Frame {
         if empty {
             fill(&mut channels, &known);
         }
-        let mut rounding = least_step(pixels, corner, size / scale) / 12.0_f64.sqrt();
-        rounding *= if color {
+        let step = least_step(pixels, corner, size / scale);
+        let percent = if color {
             100.0 / 255.0
         } else {
             to_percent(&mut channels[0], &known)
+        };
+        // a drawing of a few levels has not been rounded to them
+        let drawn = step * percent > 100.0 / FEWEST;
+        let rounding = if drawn {
+            0.0
+        } else {
+            step * percent / 12.0_f64.sqrt()
         };
         Self {
             channels,

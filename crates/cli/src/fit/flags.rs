@@ -34,7 +34,7 @@ pub(crate) struct Flags {
     #[arg(long, short, value_name = "START", required_unless_present = "seeds")]
     pub from: Option<Start>,
     /// Find many objects, as cells, each but once, with borders in common where they touch: `auto`, or a file of a
-    /// point or an outline in each; `{stem}` as above.
+    /// point or an outline in each (in a table of x and y each row is a point); `{stem}` as above.
     #[arg(long, value_name = "auto|FILE", conflicts_with_all = ["from", "set", "nodes", "polarity"])]
     pub seeds: Option<Where>,
     /// Write the outlines, in the format that the name's ending says: csv, geojson, svg, roi, zip, png (a mask), tif

@@ -54,7 +54,14 @@ impl Where {
             None => (Seeds::Auto, Vec::new()),
             Some(path) => {
                 let shapes = load("--seeds", &path, flags)?;
-                (seeds(&shapes)?, shapes)
+                match &shapes[..] {
+                    // the rows of a table that names no curve are points
+                    [one] if one.closed.is_none() => {
+                        let points = one.rings.iter().flatten().copied().collect();
+                        (Seeds::Points(points), Vec::new())
+                    }
+                    _ => (seeds(&shapes)?, shapes),
+                }
             }
         };
         let rules = Rules::default();
