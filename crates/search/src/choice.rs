@@ -7,7 +7,7 @@ use field::Pixels;
 use glam::DVec2;
 
 use crate::along::Polygon;
-use crate::evidence::{Support, support};
+use crate::evidence::{Support, on_edge, support};
 use crate::find::{Found, Search, Searched};
 use crate::flood::{flood, purity};
 use crate::near::near;
@@ -26,9 +26,10 @@ const LOOSE: f64 = 0.3;
 const LOOSE_SURE: f64 = 0.87;
 
 /// The curve close to the start is taken unless the usual one is closed better by this, or has a mean edge better by
-/// this.
+/// this, or has one on the curve itself, not a little beside it, that is better by this.
 const MORE_CLOSED: f64 = 0.06;
 const MORE_EDGE: f64 = 0.03;
+const MORE_EXACTLY: f64 = 0.1;
 
 /// Share of nodes at the limits from which on the band was too narrow.
 const LIMITED: f64 = 0.04;
@@ -205,7 +206,11 @@ impl Choice<'_> {
         let own = self.own();
         if let Some(close) = near(self.view, self.rules, CLOSE * self.rules.tether) {
             let other = self.add(Search::Close, &close.points);
-            if own.closed < other.closed + MORE_CLOSED && own.edge < other.edge + MORE_EDGE {
+            let exact = |at: usize| on_edge(self.view, &self.found[at].window);
+            let more = own.closed >= other.closed + MORE_CLOSED
+                || own.edge >= other.edge + MORE_EDGE
+                || exact(0) >= exact(self.found.len() - 1) + MORE_EXACTLY;
+            if !more {
                 self.take_last();
             }
         }

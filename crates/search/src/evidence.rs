@@ -89,6 +89,25 @@ pub(crate) fn support(view: &View, curve: &[DVec2], closed: bool, cut: bool) -> 
     }
 }
 
+/// Mean strength of the edge on a curve itself, not a little beside it.
+pub(crate) fn on_edge(view: &View, curve: &[DVec2]) -> f64 {
+    let points = smoothed(curve, 1.0, true);
+    let curve = Polygon {
+        points,
+        closed: true,
+    }
+    .evenly(POINTS);
+    let normals = curve.normals(1.0);
+    let known = curve
+        .points
+        .iter()
+        .zip(&normals)
+        .filter(|(p, _)| view.is_known(**p));
+    let strengths = known.map(|(p, n)| view.edges.strength(size(view.edges.across(*p, *n))));
+    let (sum, count) = strengths.fold((0.0, 0.0), |(sum, count), one| (sum + one, count + 1.0));
+    if count > 0.0 { sum / count } else { 0.0 }
+}
+
 /// The slopes beside a curve along the directions of its edge, against these.
 fn beside(view: &View, curve: &Polygon, edge: &[Option<Across>]) -> f64 {
     let normals = curve.normals(1.0);
