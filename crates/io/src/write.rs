@@ -69,8 +69,8 @@ fn beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     // the name of a file that was not made helps nobody
-    let plain = |error: std::io::Error| match error.get_ref().and_then(std::error::Error::source) {
-        Some(source) => std::io::Error::new(error.kind(), source.to_string()),
+    let plain = |error: std::io::Error| match error.to_string().split_once(" at path ") {
+        Some((message, _)) => std::io::Error::new(error.kind(), message),
         None => error,
     };
     builder.tempfile_in(folder(path)).map_err(plain)

@@ -1,8 +1,7 @@
 //! The pictures that are named: files, folders of them, names with `*` and `?` that no shell has read.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
-use glob::MatchOptions;
 use io::Picture;
 use scene::SceneError;
 
@@ -14,13 +13,6 @@ const ENDINGS: [&str; 12] = [
     "png", "jpg", "jpeg", "tif", "tiff", "pgm", "ppm", "pnm", "pbm", "pfm", "webp", "btf",
 ];
 
-/// A name that begins with a dot is only meant where the pattern has the dot.
-const PLAIN: MatchOptions = MatchOptions {
-    case_sensitive: true,
-    require_literal_separator: false,
-    require_literal_leading_dot: true,
-};
-
 /// The files and folders that names stand for: of one with `*`, `?` or `[…]` that is not the name of a file itself, all
 /// that are called so, in the order of their names.
 pub(super) fn matched(names: &[PathBuf]) -> Result<Vec<PathBuf>, SceneError> {
@@ -31,13 +23,17 @@ pub(super) fn matched(names: &[PathBuf]) -> Result<Vec<PathBuf>, SceneError> {
             list.push(name.clone());
             continue;
         };
-        let found = glob::glob_with(pattern, PLAIN).map_err(|error| {
+        let found = glob::glob(pattern).map_err(|error| {
             let message = format!("{pattern} is neither a file nor a pattern of names: {error}");
             key("picture", message)
         })?;
         let before = list.len();
         for path in found {
-            list.push(path.map_err(|error| key("picture", error))?);
+            let path = path.map_err(|error| key("picture", error))?;
+            // a name that begins with a dot is meant only where the pattern has the dot
+            if !is_hidden(&path) || is_hidden(name) {
+                list.push(path);
+            }
         }
         if list.len() == before {
             let message = format!("no file is called {pattern}; needed: a name that some have");
@@ -45,6 +41,14 @@ pub(super) fn matched(names: &[PathBuf]) -> Result<Vec<PathBuf>, SceneError> {
         }
     }
     Ok(list)
+}
+
+/// Whether the name of a file or of a folder on the way to it begins with a dot.
+fn is_hidden(path: &Path) -> bool {
+    path.components().any(|part| match part {
+        Component::Normal(name) => name.as_encoded_bytes().starts_with(b"."),
+        _ => false,
+    })
 }
 
 /// A picture to be read.
@@ -121,12 +125,11 @@ fn inside(folder: &Path) -> Result<Vec<PathBuf>, SceneError> {
         let ending = path
             .extension()
             .map(|ending| ending.to_string_lossy().to_lowercase());
-        let hidden = |path: &Path| {
-            let name = path.file_name().unwrap_or_default();
-            name.as_encoded_bytes().starts_with(b".")
-        };
+        let hidden = path
+            .file_name()
+            .is_some_and(|name| is_hidden(Path::new(name)));
         if path.is_file()
-            && !hidden(&path)
+            && !hidden
             && ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
         {
             list.push(path);
