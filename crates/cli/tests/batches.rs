@@ -1,5 +1,10 @@
 //! `snake fit` over many pictures: going on with a table, pages, what is read in a folder, what is written where.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a test: small whole numbers"
+)]
 
 mod common;
 

@@ -1,5 +1,10 @@
 //! Where `snake fit` starts: files for another picture, of several, of parts; starts out of all measure; what is said.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a test: small whole numbers"
+)]
 
 mod common;
 
@@ -367,8 +372,10 @@ fn the_page_on_formats_has_the_keys_of_the_line_of_json() {
 
 #[test]
 fn the_motion_of_the_readme_comes_to_rest() {
-    let line = include_str!("../../../README.md").lines();
-    let line = line.filter(|line| line.contains("--force")).next().unwrap();
+    let line = include_str!("../../../README.md")
+        .lines()
+        .find(|line| line.contains("--force"))
+        .unwrap();
     let (command, _) = line.split_once('#').unwrap();
     let mut args: Vec<&str> = command.split_whitespace().skip(1).collect();
     assert_eq!(args[1], "apple.png");

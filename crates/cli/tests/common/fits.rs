@@ -59,11 +59,6 @@ pub(crate) fn soft(pixels: f64) -> Vec<u8> {
 }
 
 /// A level as a byte.
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a test: clamped to what a byte has"
-)]
 pub(crate) fn byte(level: f64) -> u8 {
     level.round().clamp(0.0, 255.0) as u8
 }
