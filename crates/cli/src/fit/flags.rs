@@ -90,7 +90,8 @@ pub(crate) struct Flags {
     /// Say what was measured, what was chosen and why, and how it ended.
     #[arg(long)]
     pub explain: bool,
-    /// Leave out pictures whose results are in the folder of --out-dir already.
+    /// Leave out pictures whose results are in the folder of --out-dir already, and their rows in the table of --measure,
+    /// which are kept.
     #[arg(long, requires = "out_dir")]
     pub resume: bool,
     /// Refuse to write over a file that is there.

@@ -156,8 +156,7 @@ impl Reading {
     pub(super) fn check_size(&self, width: usize, height: usize) -> Result<(), String> {
         match self.size {
             Some(size) if size != (width, height) => Err(format!(
-                "has {width}×{height} pixels and the picture {}×{}; pixels of outlines of the picture's own size are \
-                 needed",
+                "has {width}×{height} pixels and the picture has {}×{}; one of the picture's own size is needed",
                 size.0, size.1
             )),
             _ => Ok(()),
