@@ -131,7 +131,7 @@ fn fit(name: &str, bytes: &[u8]) -> common::Answer {
 fn a_picture_that_is_stored_turned_is_seen_upright() {
     let (w, h, pixels) = stored(1);
     let plain = fit("a.png", &png(w, h, &pixels, b""));
-    assert!(plain.out.starts_with("# contour 1"), "{plain:?}");
+    assert!(plain.out.contains("# contour 1"), "{plain:?}");
     assert!(!plain.err.contains("turned"), "{plain:?}");
     for orientation in 1..=8 {
         let (w, h, pixels) = stored(orientation);
@@ -222,7 +222,7 @@ fn every_format_that_has_been_cut_or_claims_too_much_is_refused() {
         chunk(b"zTXt", b"a\0\0x"),
     ];
     let answer = fit("a.png", &png(w, h, &pixels, &bomb.concat()));
-    assert!(answer.out.starts_with("# contour 1"), "{answer:?}");
+    assert!(answer.out.contains("# contour 1"), "{answer:?}");
 }
 
 #[test]

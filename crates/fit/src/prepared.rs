@@ -12,6 +12,10 @@ use crate::options::{Method, Step};
 use crate::session::Session;
 use crate::{Contour, Fit, FitError, FitForce, Image, OptionKey, Options, Problem};
 
+/// A start of a search may reach beyond the image by so many of its larger sides: work and memory of a search grow
+/// with its start.
+const MOST_BEYOND: f64 = 4.0;
+
 /// An image with all that a fit needs of it, for any number of curves. Cloning it costs nothing; it
 /// may be shared by threads, and so are the tiles of lazy fields.
 ///
@@ -82,13 +86,40 @@ impl Prepared {
     ///
     /// # Errors
     ///
-    /// By its key: a start with too few points or outside the image, too many nodes, a force that
-    /// only a closed curve can have.
+    /// By its key: a start with too few points or outside the image, of a search one that reaches beyond the image
+    /// by more than four of its larger sides, too many nodes, a force that only a closed curve can have.
     pub fn fit(&self, start: &Contour) -> Result<Fit, FitError> {
         match self.0.options.method {
-            Method::Search => found(self, start),
+            Method::Search => {
+                self.check_reach(start)
+                    .map_err(|problem| FitError::new(OptionKey::Start, problem))?;
+                found(self, start)
+            }
             Method::Motion => Ok(self.session(start)?.finish()),
         }
+    }
+
+    /// Refuse a start that reaches too far beyond the image, before anything of its size is made.
+    fn check_reach(&self, start: &Contour) -> Result<(), Problem> {
+        let (width, height) = self.0.image.size();
+        let last = DVec2::new(width as f64, height as f64) - 0.5;
+        let beyond = |p: &DVec2| (DVec2::splat(-0.5) - p).max(*p - last).max_element();
+        // numbers that are not finite are refused by their point
+        let finite = start.points.iter().filter(|p| p.is_finite());
+        let far = finite.map(beyond).fold(0.0, f64::max);
+        let most = MOST_BEYOND * width.max(height) as f64;
+        if far <= most {
+            return Ok(());
+        }
+        let far = if far < 1e9 {
+            format!("{far:.0}")
+        } else {
+            format!("{far:.1e}")
+        };
+        Err(Problem::Other(format!(
+            "reaches {far} pixels beyond the picture of {width}×{height} pixels; must be at most {most}, four times its \
+             larger side"
+        )))
     }
 
     /// A motion from a start step by step, whatever the method.

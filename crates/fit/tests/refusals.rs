@@ -287,3 +287,39 @@ fn choices_are_told_in_plain_words() {
          scheme: relaxation, in steps that grow, none of which moves a node farther than 0.79 pixels"
     );
 }
+
+#[test]
+fn a_start_of_a_search_may_be_wider_than_the_image_but_not_out_of_all_measure() {
+    let image = image();
+    let (width, height) = image.size();
+    let most = 4.0 * width.max(height) as f64;
+    let usual = Options::default();
+    let reaching = |far: f64| {
+        let corner = |x: f64, y: f64| DVec2::new(x, y);
+        let points = [
+            corner(-0.5 - far, 0.0),
+            corner(60.0, 0.0),
+            corner(60.0, 80.0),
+        ];
+        Contour::closed(points.to_vec())
+    };
+    assert!(fit(&image, &reaching(most), &usual).is_ok());
+    assert!(fit(&image, &Contour::circle(CENTER, 0.8 * width as f64), &usual).is_ok());
+    for far in [most + 1.0, 1e6, 1e99, f64::MAX / 4.0] {
+        let error = fit(&image, &reaching(far), &usual).unwrap_err();
+        assert_eq!(error.key, OptionKey::Start);
+        let said = error.to_string();
+        assert!(
+            said.contains("beyond the picture") && said.len() < 200,
+            "{said}"
+        );
+    }
+    // the first point that is no place is told as such
+    for bad in [f64::NAN, f64::INFINITY] {
+        let error = fit(&image, &reaching(bad), &usual).unwrap_err();
+        assert!(
+            error.to_string().contains("point 0 must be finite"),
+            "{error}"
+        );
+    }
+}

@@ -68,7 +68,12 @@ fn beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
         use std::os::unix::fs::PermissionsExt as _;
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(folder(path))
+    // the name of a file that was not made helps nobody
+    let plain = |error: std::io::Error| match error.to_string().split_once(" at path ") {
+        Some((message, _)) => std::io::Error::new(error.kind(), message),
+        None => error,
+    };
+    builder.tempfile_in(folder(path)).map_err(plain)
 }
 
 /// What is known of a file that is there and is to be replaced; a file that may not be written is an error, though
@@ -268,6 +273,7 @@ mod tests {
         ] {
             let error = ready_file(&bad).unwrap_err().to_string();
             assert!(error.starts_with(&bad.display().to_string()), "{error}");
+            assert!(!error.contains("being-written"), "{error}");
             assert!(write_whole(&bad, b"x").is_err());
         }
         assert!(ready_folder(&file).is_err());

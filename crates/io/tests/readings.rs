@@ -287,3 +287,32 @@ fn what_is_cut_or_changed_never_stops_the_program() {
         }
     }
 }
+
+#[test]
+fn pages_are_counted_as_they_are_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let count = |bytes: &[u8], channel| {
+        let path = folder.path().join("stack");
+        std::fs::write(&path, bytes).unwrap();
+        Picture::pages(&path, channel).unwrap()
+    };
+    assert_eq!(count(&pages(7, "a stack"), None), 7);
+    assert_eq!(count(&pages(1, "a page"), None), 1);
+    let stack = pages(
+        6,
+        "ImageJ=1.54f\nimages=6\nchannels=2\nframes=3\nhyperstack=true\n",
+    );
+    assert_eq!([count(&stack, None), count(&stack, Some("2"))], [6, 3]);
+    let last = PictureReading {
+        page: Some(3),
+        ..channel("2")
+    };
+    assert_eq!(level(&stack, &last).to_bits(), 60.0_f64.to_bits());
+    assert_eq!(count(b"P2 1 1 255 7", None), 1);
+    let mut cut = pages(7, "a stack");
+    cut.truncate(cut.len() / 2);
+    let path = folder.path().join("cut.tif");
+    std::fs::write(&path, cut).unwrap();
+    assert!(Picture::pages(&path, None).is_err());
+    assert!(Picture::pages(&folder.path().join("none"), None).is_err());
+}

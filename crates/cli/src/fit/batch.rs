@@ -11,15 +11,18 @@ use scene::fit::{Options, in_order};
 use serde_json::json;
 
 use super::flags::Flags;
-use super::inputs;
-use super::measures::{HEADINGS, rows};
+use super::former::{Former, unsure};
+use super::inputs::{self, Input};
+use super::measures::{HEADINGS, called, rows};
 use super::one::{all, beside, picture};
 use super::options::options;
 use super::results::{Wanted, of_folder, write};
+use super::said::counted;
 use super::sheet::{Place, Rest, Sheet};
 use super::start::stem;
 use crate::args::Words;
 use crate::commands::{Answer, code, key};
+use crate::output::put_bytes;
 use crate::stop::{STOPPED, Stop};
 
 /// What became of a picture.
@@ -31,9 +34,10 @@ enum Done {
         unsure: usize,
         rows: String,
         place: Option<Place>,
+        notes: Vec<String>,
     },
-    /// Its results were there.
-    There,
+    /// Its results were there: so many of them marked unsure, its rows of the table.
+    There { unsure: usize, rows: String },
     /// Refused, and why.
     Refused(String),
     /// Not begun, since the user asked for an end.
@@ -47,12 +51,14 @@ struct Tally {
     unsure: usize,
     rows: String,
     places: Vec<Place>,
+    /// Outlines marked unsure among the results that were there.
+    doubted: usize,
     rest: Rest,
 }
 
 impl Tally {
     /// Count a picture; what there is to say of it.
-    fn count(&mut self, image: &Path, done: Done) -> Option<String> {
+    fn count(&mut self, image: &Path, done: Done) -> Vec<String> {
         let name = image.display().to_string();
         match done {
             Done::Found {
@@ -60,27 +66,44 @@ impl Tally {
                 unsure,
                 rows,
                 place,
+                notes,
             } => {
                 self.outlines += outlines;
                 self.unsure += unsure;
                 self.rows.push_str(&rows);
                 self.places.extend(place);
-                return (unsure > 0)
-                    .then(|| format!("{name}: {unsure} of {outlines} outlines unsure"));
+                let notes = notes.into_iter().map(|note| format!("note: {note}"));
+                let doubt = (unsure > 0).then(|| {
+                    let outlines = counted(outlines, "outline");
+                    format!("{name}: {unsure} of {outlines} unsure")
+                });
+                return notes.chain(doubt).collect();
             }
-            Done::There => self.rest.there.push(name),
+            Done::There { unsure, rows } => {
+                self.doubted += unsure;
+                self.rows.push_str(&rows);
+                let text = (unsure > 0).then(|| {
+                    format!(
+                        "{name}: there already, {} unsure",
+                        counted(unsure, "outline")
+                    )
+                });
+                self.rest.there.push(name);
+                return text.into_iter().collect();
+            }
             Done::Refused(why) => {
                 let text = format!("{name}: {why}");
                 self.rest.refused.push((name, why));
-                return Some(text);
+                return vec![text];
             }
             Done::Stopped => self.rest.left.push(name),
         }
-        None
+        Vec::new()
     }
 
     fn is_good(&self) -> bool {
-        self.rest.refused.is_empty() && self.unsure == 0 && self.rest.left.is_empty()
+        let unsure = self.unsure + self.doubted;
+        self.rest.refused.is_empty() && unsure == 0 && self.rest.left.is_empty()
     }
 }
 
@@ -91,10 +114,21 @@ pub(super) fn many(flags: &Flags, images: &[PathBuf], words: Words) -> Answer {
         return Err(key("--out-dir", message));
     };
     let options = options(flags)?;
-    let pictures = inputs::files(images)?;
+    let pictures = inputs::pictures(images, flags)?;
     let sheet = Sheet::of(flags.sheet.as_ref())?;
+    if io::is_standard(folder) {
+        return Err(key("--out-dir", "must be a folder, got standard output"));
+    }
+    let former = Former::of(flags)?;
     io::ready_folder(folder)?;
+    apart(flags, folder, &pictures)?;
     let jobs = plan(flags, folder, &pictures)?;
+    if let Some(path) = flags.measure.as_ref().filter(|_| words.json)
+        && io::is_standard(path)
+    {
+        let message = "writes to standard output, and so does --measure; give --measure a file";
+        return Err(key("--json", message));
+    }
     let stop = Stop::listen();
     let threads = flags
         .jobs
@@ -104,17 +138,24 @@ pub(super) fn many(flags: &Flags, images: &[PathBuf], words: Words) -> Answer {
     in_order(
         &jobs,
         threads,
-        |job| done(job, flags, &options, sheet.as_ref(), &stop),
+        |job| done(job, flags, &options, sheet.as_ref(), &former, &stop),
         |index, done| {
             bar.inc(1);
-            if let Some(text) = tally.count(&jobs[index].image, done) {
+            for text in tally.count(&jobs[index].input.name, done) {
                 bar.suspend(|| words.say(&text));
             }
         },
     );
     bar.finish_and_clear();
     if let Some(path) = &flags.measure {
-        io::write_whole(path, format!("{HEADINGS}\n{}", tally.rows).as_bytes())?;
+        let own: Vec<String> = jobs.iter().map(|job| called(&job.input.name)).collect();
+        let others = former.others(own.iter().map(String::as_str));
+        let table = format!("{HEADINGS}\n{others}{}", tally.rows);
+        if io::is_standard(path) {
+            put_bytes(table.as_bytes())?;
+        } else {
+            io::write_whole(path, table.as_bytes())?;
+        }
     }
     if let Some(sheet) = sheet {
         sheet.write(&tally.places, &tally.rest)?;
@@ -132,16 +173,27 @@ fn said(tally: &Tally, pictures: usize, words: Words) -> Result<(), SceneError> 
     let Tally {
         outlines,
         unsure,
+        doubted,
         rest,
         ..
     } = tally;
     let [refused, there, left] = [rest.refused.len(), rest.there.len(), rest.left.len()];
     words.say(&format!(
-        "{pictures} pictures: {outlines} outlines, {unsure} of them unsure; {refused} pictures refused, {there} there already",
+        "{}: {}, {unsure} of them unsure; {} refused, {there} there already",
+        counted(pictures, "picture"),
+        counted(*outlines, "outline"),
+        counted(refused, "picture"),
     ));
+    if *doubted > 0 {
+        words.say(&format!(
+            "of what was there already, {} marked unsure",
+            counted(*doubted, "outline")
+        ));
+    }
     if left > 0 {
         words.say(&format!(
-            "{STOPPED}; {left} pictures are left: --resume goes on with them"
+            "{STOPPED}; left: {}; --resume goes on with that",
+            counted(left, "picture")
         ));
     }
     words.end(&json!({
@@ -150,30 +202,63 @@ fn said(tally: &Tally, pictures: usize, words: Words) -> Result<(), SceneError> 
         "unsure": unsure,
         "refused": refused,
         "there": there,
+        "there_unsure": doubted,
         "left": left,
         "good": tally.is_good(),
     }))
 }
 
+/// Refuse to write pictures where pictures are looked for: the next run would take them for its own.
+fn apart(flags: &Flags, folder: &Path, pictures: &[Input]) -> Result<(), SceneError> {
+    if !of_folder(flags, folder, "picture")?
+        .iter()
+        .any(Wanted::is_picture)
+    {
+        return Ok(());
+    }
+    let same = |path: &Path| {
+        let path = if path.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            path
+        };
+        let real = std::fs::canonicalize(path).ok();
+        real.is_some() && real == std::fs::canonicalize(folder).ok()
+    };
+    // those that are named themselves are told from results by that
+    let mut looked = pictures
+        .iter()
+        .filter(|input| !flags.images.contains(&input.image));
+    if looked.any(|input| input.image.parent().is_some_and(same)) {
+        let message = format!(
+            "{} is where the pictures are looked for, and among the results are pictures, which the next run would take \
+             for more of them; needed: another folder",
+            folder.display()
+        );
+        return Err(key("--out-dir", message));
+    }
+    Ok(())
+}
+
 /// A picture, and what is to be made of it.
 #[derive(Debug)]
 struct Job {
-    image: PathBuf,
+    input: Input,
     wanted: Vec<Wanted>,
 }
 
 /// What is made of each picture: no result takes the place of another, or of what is read.
-fn plan(flags: &Flags, folder: &Path, pictures: &[PathBuf]) -> Result<Vec<Job>, SceneError> {
+fn plan(flags: &Flags, folder: &Path, pictures: &[Input]) -> Result<Vec<Job>, SceneError> {
     let mut claims = Claims::default();
-    for image in pictures {
+    for Input { image, name, .. } in pictures {
         claims.reads(image);
-        if let Some(file) = beside(flags, &stem(image)) {
+        if let Some(file) = beside(flags, &stem(name)) {
             claims.reads(&file);
         }
     }
     let mut jobs = Vec::new();
-    for image in pictures {
-        let wanted = of_folder(flags, folder, &stem(image))?;
+    for input in pictures {
+        let wanted = of_folder(flags, folder, &stem(&input.name))?;
         for one in &wanted {
             if flags.no_clobber && !flags.resume && one.path().exists() {
                 let message = format!(
@@ -182,10 +267,11 @@ fn plan(flags: &Flags, folder: &Path, pictures: &[PathBuf]) -> Result<Vec<Job>, 
                 );
                 return Err(key("--out-dir", message));
             }
-            claims.writes(&format!("--out-dir for {}", image.display()), one.path())?;
+            let result = format!("--out-dir for {}", input.name.display());
+            claims.writes(&result, one.path())?;
         }
         jobs.push(Job {
-            image: image.clone(),
+            input: input.clone(),
             wanted,
         });
     }
@@ -202,18 +288,34 @@ fn plan(flags: &Flags, folder: &Path, pictures: &[PathBuf]) -> Result<Vec<Job>, 
 }
 
 /// The work on one picture.
-fn done(job: &Job, flags: &Flags, options: &Options, sheet: Option<&Sheet>, stop: &Stop) -> Done {
+fn done(
+    job: &Job,
+    flags: &Flags,
+    options: &Options,
+    sheet: Option<&Sheet>,
+    former: &Former,
+    stop: &Stop,
+) -> Done {
+    if flags.resume && job.wanted.iter().all(|wanted| wanted.path().exists()) {
+        let rows = former.rows(&called(&job.input.name));
+        // without its rows the table would lack it
+        if rows.is_some() || flags.measure.is_none() {
+            let (rows, doubted) = rows.unwrap_or_default();
+            let marked = job.wanted.iter().map(unsure);
+            return Done::There {
+                unsure: marked.fold(doubted, usize::max),
+                rows: rows.to_owned(),
+            };
+        }
+    }
     if stop.asked() {
         return Done::Stopped;
-    }
-    if flags.resume && job.wanted.iter().all(|wanted| wanted.path().exists()) {
-        return Done::There;
     }
     match attempt(job, flags, options, sheet) {
         Ok(done) => done,
         Err(error) => {
             // the name of the picture is said before it
-            let (name, message) = (job.image.display().to_string(), error.to_string());
+            let (name, message) = (job.input.image.display().to_string(), error.to_string());
             let rest = message
                 .strip_prefix(&name)
                 .and_then(|rest| rest.strip_prefix(": "));
@@ -233,26 +335,28 @@ fn attempt(
         verbose: false,
         json: false,
     };
-    let picture = Arc::new(picture(&job.image, flags)?);
+    let picture = Arc::new(picture(&job.input.image, job.input.page, flags)?);
+    let (flags, mut notes) = (&flags.about(&picture, &job.input.name), Vec::new());
     // a picture that is begun is finished: there is no half of a result
     let found = all(
         &picture,
-        &stem(&job.image),
+        &job.input.name,
         options,
         flags,
         &Stop::default(),
         quiet,
+        &mut |note| notes.push(note.to_owned()),
     )?;
     for wanted in &job.wanted {
-        write(wanted, &picture, &job.image, &found, flags)?;
+        write(wanted, &picture, &job.input.name, &found, flags)?;
     }
     let rows = if flags.measure.is_some() {
-        rows(&picture, &job.image, &found)
+        rows(&picture, &job.input.name, &found)
     } else {
         String::new()
     };
     let place = match sheet {
-        Some(sheet) => Some(sheet.keep(&picture, &job.image, &found)?),
+        Some(sheet) => Some(sheet.keep(&picture, &job.input.name, &found)?),
         None => None,
     };
     let unsure = found.iter().filter(|found| found.unsure.is_some()).count();
@@ -261,6 +365,7 @@ fn attempt(
         unsure,
         rows,
         place,
+        notes,
     })
 }
 

@@ -1,9 +1,11 @@
 //! Flags of `snake fit` as typed.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args as ClapArgs, ValueEnum};
+use io::Picture;
 
+use super::measures::called;
 use super::results::ANIMATION;
 use super::seeds::Where;
 use super::start::Start;
@@ -21,8 +23,11 @@ Examples:
 
 Exit code 0: found. 1: unsure, not at rest, stopped, or a picture of many failed. 2: refused, and why.";
 
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs)]
 pub(crate) struct Flags {
+    /// The picture whose starts are read, once it is known; no flag.
+    #[arg(skip)]
+    pub about: Option<About>,
     /// The pictures: PNG, JPEG, TIFF, PGM, PPM, PFM or WebP files, folders of them, or names with `*` and `?`; `-` is
     /// standard input.
     #[arg(required = true, value_name = "IMAGE")]
@@ -85,7 +90,8 @@ pub(crate) struct Flags {
     /// Say what was measured, what was chosen and why, and how it ended.
     #[arg(long)]
     pub explain: bool,
-    /// Leave out pictures whose results are in the folder of --out-dir already.
+    /// Leave out pictures whose results are in the folder of --out-dir already, and their rows in the table of --measure,
+    /// which are kept.
     #[arg(long, requires = "out_dir")]
     pub resume: bool,
     /// Refuse to write over a file that is there.
@@ -114,9 +120,10 @@ pub(crate) struct Flags {
     /// outer corner.
     #[arg(long, value_enum, help_heading = "Input")]
     pub origin: Option<Origin>,
-    /// Page of a TIFF, from 1.
-    #[arg(long, value_name = "N", help_heading = "Input")]
-    pub page: Option<usize>,
+    /// Page of a TIFF, from 1; or `all`, each a picture of its own: those of stack.tif are called `stack_page1` and so
+    /// on, by results and by `{stem}`.
+    #[arg(long, value_name = "N|all", help_heading = "Input")]
+    pub page: Option<Pages>,
     /// Channel of a picture, by name or number from 1.
     #[arg(long, value_name = "NAME", help_heading = "Input")]
     pub channel: Option<String>,
@@ -220,6 +227,13 @@ pub(crate) struct Flags {
     pub steps: Option<u64>,
 }
 
+/// What a file of starts is to be for: a picture by its file name, and of its width and height.
+#[derive(Debug, Clone)]
+pub(crate) struct About {
+    pub name: String,
+    pub size: (usize, usize),
+}
+
 /// How an outline is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Method {
@@ -227,6 +241,27 @@ pub(crate) enum Method {
     Search,
     /// By a curve that moves from it.
     Motion,
+}
+
+/// Which pages of a file are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Pages {
+    /// One, from 1.
+    One(usize),
+    /// Each, as a picture of its own.
+    All,
+}
+
+impl std::str::FromStr for Pages {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        if text == "all" {
+            return Ok(Self::All);
+        }
+        let number = text.parse().map(Self::One);
+        number.map_err(|_| format!("must be a number from 1, or all, got {text}"))
+    }
 }
 
 /// Where 0,0 is.
@@ -239,6 +274,15 @@ pub(crate) enum Origin {
 }
 
 impl Flags {
+    /// The same for the starts of that picture.
+    pub(super) fn about(&self, picture: &Picture, image: &Path) -> Self {
+        let (name, size) = (called(image), picture.size());
+        Self {
+            about: Some(About { name, size }),
+            ..self.clone()
+        }
+    }
+
     /// Whether the way of a curve is kept.
     pub(super) fn is_watched(&self) -> bool {
         let named = self.formats.iter().any(|name| name == ANIMATION);

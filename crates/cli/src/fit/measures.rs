@@ -12,6 +12,13 @@ use super::one::Found;
 const CURVATURE: f64 = 3.0;
 const RING: f64 = 5.0;
 
+/// Digits of a number: more than any measure has that are right, and fewer than those in which machines differ.
+const DIGITS: usize = 9;
+
+/// Which column says how an outline ended, and the word for one that is not sure.
+pub(super) const OUTCOME: usize = 3;
+pub(super) const UNSURE: &str = "unsure";
+
 /// Headings of the table of measures; lengths in pixels but for the last two, which are in units of the picture.
 pub(super) const HEADINGS: &str = "picture,outline,label,outcome,area_px2,perimeter_px,centroid_x_px,centroid_y_px,\
     major_axis_px,minor_axis_px,angle_deg,circularity,solidity,equivalent_diameter_px,left_px,top_px,right_px,bottom_px,\
@@ -42,7 +49,7 @@ fn row(picture: &Picture, name: &Path, number: usize, found: &Found) -> Vec<Stri
     let number_of = |value: Option<f64>| {
         value
             .filter(|value| value.is_finite())
-            .map_or_else(String::new, |value| format!("{value:.6}"))
+            .map_or_else(String::new, plain)
     };
     let of = |value: fn(&Measures) -> f64| number_of(measures.as_ref().map(value));
     let label = shape
@@ -67,13 +74,13 @@ fn row(picture: &Picture, name: &Path, number: usize, found: &Found) -> Vec<Stri
             .sum::<f64>()
     };
     vec![
-        quoted(&name.file_name().unwrap_or_default().to_string_lossy()),
+        quoted(&called(name)),
         shape
             .and_then(|shape| shape.id.as_deref())
             .map_or_else(|| number.to_string(), quoted),
         quoted(label),
         (if found.unsure.is_some() {
-            "unsure"
+            UNSURE
         } else {
             "found"
         })
@@ -112,11 +119,52 @@ fn row(picture: &Picture, name: &Path, number: usize, found: &Found) -> Vec<Stri
     ]
 }
 
+/// A number of so many digits, without zeros behind the last.
+fn plain(value: f64) -> String {
+    let round = format!("{value:.*e}", DIGITS - 1).parse::<f64>();
+    // no zero has a sign
+    format!("{}", round.unwrap_or(value) + 0.0)
+}
+
+/// What a picture is called in the table.
+pub(super) fn called(name: &Path) -> String {
+    name.file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned()
+}
+
 /// A text as a field of a table.
 fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {
         text.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_nine_digits_whatever_their_size() {
+        let known = [
+            (2.5e-5, "0.000025"),
+            (6.25e-10, "0.000000000625"),
+            (1.0 / 3.0, "0.333333333"),
+            (12_345.678_912_345, "12345.6789"),
+            (200.0, "200"),
+            (-0.0, "0"),
+            (1.5e12, "1500000000000"),
+        ];
+        for (value, text) in known {
+            assert_eq!(plain(value), text);
+        }
+    }
+
+    #[test]
+    fn the_columns_are_where_they_are_looked_for() {
+        assert_eq!(HEADINGS.split(',').nth(OUTCOME), Some("outcome"));
     }
 }

@@ -3,6 +3,7 @@
 mod batch;
 mod film;
 mod flags;
+mod former;
 mod inputs;
 mod measures;
 mod one;
@@ -23,6 +24,7 @@ use scene::SceneError;
 use scene::fit::Method;
 use scene::snake::Outcome;
 
+use self::flags::Pages;
 pub(crate) use self::flags::{EXAMPLES, Flags};
 use self::measures::{HEADINGS, rows};
 use self::one::{Found, all, beside, picture};
@@ -77,14 +79,26 @@ fn single(flags: &Flags, image: &Path, words: Words) -> Answer {
         let message = format!("writes to standard output, and so does {flag}; give {flag} a file");
         return Err(key("--json", message));
     }
-    let picture = Arc::new(picture(image, flags)?);
+    let page = match flags.page {
+        None => None,
+        Some(Pages::One(page)) => Some(page),
+        Some(Pages::All) => {
+            let message =
+                "all makes outlines of each page; needed: --out-dir, or the number of a page";
+            return Err(key("--page", message));
+        }
+    };
+    let picture = Arc::new(picture(image, page, flags)?);
     let inputs: Vec<PathBuf> = [Some(image.to_owned()), file]
         .into_iter()
         .flatten()
         .collect();
     results::check(flags, &wanted, &inputs)?;
     let stop = Stop::listen();
-    let found = all(&picture, &stem(image), &options, flags, &stop, words)?;
+    let flags = &flags.about(&picture, image);
+    let mut say = |note: &str| words.say(&format!("note: {note}"));
+    let found = all(&picture, image, &options, flags, &stop, words, &mut say)?;
+    results::check_count(flags, found.len())?;
     if let Some(path) = &flags.record {
         recorded(path, image, &found)?;
     }

@@ -15,7 +15,8 @@ use scene::snake::Outcome;
 use super::film::Moments;
 use super::flags::Flags;
 use super::options::by_flag;
-use super::start::contour;
+use super::results;
+use super::start::{contour, stem};
 use crate::args::Words;
 use crate::commands::{bar, key};
 use crate::stop::Stop;
@@ -58,21 +59,25 @@ pub(super) fn beside(flags: &Flags, stem: &str) -> Option<PathBuf> {
     start.or_else(|| flags.seeds.as_ref().and_then(|seeds| seeds.file(stem)))
 }
 
-/// The outlines of a picture from its starts or seeds.
+/// The outlines of a picture from its starts or seeds; `say` is told what people should know of the starts.
 pub(super) fn all(
     picture: &Arc<Picture>,
-    stem: &str,
+    name: &Path,
     options: &Options,
     flags: &Flags,
     stop: &Stop,
     words: Words,
+    say: &mut dyn FnMut(&str),
 ) -> Result<Vec<Found>, SceneError> {
+    let stem = &stem(name);
     let image = Image::of(Arc::<Picture>::clone(picture));
     let ready = || Prepared::of(&image, options).map_err(|e| by_flag(&e));
     let (prepared, mut found) = match (&flags.seeds, &flags.from) {
         (Some(seeds), _) => (None, seeds.outlines(picture, flags, stem)?),
         (None, Some(from)) => {
-            let (starts, prepared) = (from.shapes(flags, stem)?, ready()?);
+            let ((starts, notes), prepared) = (from.shapes(flags, stem)?, ready()?);
+            results::check_count(flags, starts.len())?;
+            notes.iter().for_each(|note| say(note));
             for note in picture.notes() {
                 words.say(&format!("note: {note}"));
             }
@@ -88,10 +93,14 @@ pub(super) fn all(
     Ok(found)
 }
 
-/// Read a picture as the flags say.
-pub(super) fn picture(path: &Path, flags: &Flags) -> Result<Picture, SceneError> {
+/// Read a picture, or that page of it, as the flags say.
+pub(super) fn picture(
+    path: &Path,
+    page: Option<usize>,
+    flags: &Flags,
+) -> Result<Picture, SceneError> {
     let reading = PictureReading {
-        page: flags.page,
+        page,
         channel: flags.channel.clone(),
         as_stored: flags.as_stored,
         ..PictureReading::default()

@@ -32,6 +32,16 @@ pub(super) enum Wanted {
 }
 
 impl Wanted {
+    /// Whether it is a picture, as pictures are that outlines are found in.
+    pub(super) const fn is_picture(&self) -> bool {
+        let format = match self {
+            Self::Outlines(format, _) => *format,
+            Self::Overlay(_) => return true,
+            Self::Animation(_) => return false,
+        };
+        matches!(format, Format::Mask | Format::Labels | Format::DeepLabels)
+    }
+
     pub(super) fn path(&self) -> &Path {
         match self {
             Self::Outlines(_, path) | Self::Overlay(path) | Self::Animation(path) => path,
@@ -44,7 +54,13 @@ pub(super) fn of_files(flags: &Flags) -> Result<Vec<(&'static str, Wanted)>, Sce
     let out = flags.out.clone().unwrap_or_else(|| PathBuf::from("-"));
     let format = match &flags.formats[..] {
         [] => Format::by_ending(&out).unwrap_or(Format::Csv),
-        [name] => named(name)?,
+        [name] if name == OVERLAY || name == ANIMATION => {
+            let message = format!(
+                "{name} is for --out-dir; needed beside --out: --{name} with the name of a file"
+            );
+            return Err(key("--as", message));
+        }
+        [name] => named(name, "")?,
         list => {
             let message = format!("must be one format for --out, got {}", list.join(","));
             return Err(key("--as", message));
@@ -109,7 +125,7 @@ pub(super) fn of_folder(
         if name == ANIMATION {
             return Ok(Wanted::Animation(folder.join(format!("{stem}.gif"))));
         }
-        let format = named(name)?;
+        let format = named(name, ", overlay, animation")?;
         Ok(Wanted::Outlines(
             format,
             folder.join(format!("{stem}{}", ending(format))),
@@ -118,12 +134,13 @@ pub(super) fn of_folder(
     names.iter().map(wanted).collect()
 }
 
-fn named(name: &str) -> Result<Format, SceneError> {
+/// The format of that name, of those that can be written and of `more`.
+fn named(name: &str, more: &str) -> Result<Format, SceneError> {
     let format =
         Format::named(name).filter(|format| !matches!(format, Format::Cvat | Format::Soft));
     format.ok_or_else(|| {
-        let names = "csv, geojson, coco, imagej, svg, labelme, mask, labels, deep-labels, overlay, animation";
-        key("--as", format!("must be one of {names}, got {name}"))
+        let names = "csv, geojson, coco, imagej, svg, labelme, mask, labels, deep-labels";
+        key("--as", format!("must be one of {names}{more}, got {name}"))
     })
 }
 
@@ -139,6 +156,25 @@ const fn ending(format: Format) -> &'static str {
         Format::Labels => "_labels.png",
         Format::DeepLabels => "_labels.tif",
         _ => ".csv",
+    }
+}
+
+/// Refuse the name of a file of one outline for several.
+pub(super) fn check_count(flags: &Flags, count: usize) -> Result<(), SceneError> {
+    let roi = |path: &&PathBuf| {
+        let ending = path.extension().unwrap_or_default();
+        ending.eq_ignore_ascii_case("roi")
+    };
+    let imagej = flags.formats.is_empty() || flags.formats.iter().any(|name| name == "imagej");
+    match flags.out.as_ref().filter(roi) {
+        Some(path) if imagej && count > 1 => {
+            let message = format!(
+                "{} holds one outline, got {count}; needed: a name that ends in .zip, which holds several, or --out-dir",
+                path.display()
+            );
+            Err(key("--out", message))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -215,9 +251,7 @@ fn outlines(
     if format == Format::Csv {
         let mut text = String::new();
         for (index, found) in found.iter().enumerate() {
-            if let Some(why) = &found.unsure
-                && found.measured.closed.is_some()
-            {
+            if let Some(why) = &found.unsure {
                 let _ = writeln!(text, "# outline {}: {}", index + 1, io::text::plain(why));
             }
         }

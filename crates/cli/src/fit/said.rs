@@ -68,6 +68,14 @@ fn add(value: &mut Value, plucked: Option<&Plucked>) {
     });
 }
 
+/// So many of something, in words.
+pub(super) fn counted(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        _ => format!("{count} {what}s"),
+    }
+}
+
 /// Say how each outline ended; whether all are good.
 pub(super) fn said(found: &[Found], words: Words) -> bool {
     let mut good = true;
@@ -102,7 +110,7 @@ pub(super) fn said(found: &[Found], words: Words) -> bool {
         good &= one.unsure.is_none();
     }
     if found.iter().any(|one| one.fit.is_none()) {
-        words.say(&format!("{} objects found", found.len()));
+        words.say(&format!("{} found", counted(found.len(), "object")));
     }
     good
 }

@@ -8,6 +8,7 @@ use scene::SceneError;
 use scene::fit::Contour;
 
 use super::flags::{self, Flags};
+use super::said::counted;
 use crate::commands::key;
 
 /// Where a fit starts, as typed.
@@ -112,14 +113,22 @@ impl Start {
         }
     }
 
-    /// The outlines to start from in a picture of that name.
-    pub(super) fn shapes(&self, flags: &Flags, stem: &str) -> Result<Vec<Shape>, SceneError> {
+    /// The outlines to start from in a picture of that name, and what people should know of how they were read.
+    pub(super) fn shapes(
+        &self,
+        flags: &Flags,
+        stem: &str,
+    ) -> Result<(Vec<Shape>, Vec<String>), SceneError> {
+        let one = |points, closed| Ok((vec![Shape::curve(points, closed)], Vec::new()));
         match self {
-            Self::Curve(points) => Ok(vec![Shape::curve(points.clone(), Some(true))]),
-            Self::Click(place) => Ok(vec![Shape::curve(vec![*place], None)]),
+            Self::Curve(points) => one(points.clone(), Some(true)),
+            Self::Click(place) => one(vec![*place], None),
             Self::File(_) => {
                 let path = self.file(stem).unwrap_or_default();
-                load("--from", &path, flags)
+                let (shapes, note) = parts("--from", &path, flags)?;
+                let mut notes: Vec<String> = note.into_iter().collect();
+                notes.extend(holes(&path, &shapes));
+                Ok((shapes, notes))
             }
         }
     }
@@ -133,13 +142,44 @@ pub(super) fn named(path: &Path, stem: &str) -> PathBuf {
     }
 }
 
-/// The outlines of a file.
+/// The outlines of a file, each part of one an outline of its own.
 pub(super) fn load(flag: &str, path: &Path, flags: &Flags) -> Result<Vec<Shape>, SceneError> {
-    let found = shapes::load_with(path, &reading(flags)?)?;
+    parts(flag, path, flags).map(|(shapes, _)| shapes)
+}
+
+/// [`load`], and what people should know of how the file was read.
+fn parts(
+    flag: &str,
+    path: &Path,
+    flags: &Flags,
+) -> Result<(Vec<Shape>, Option<String>), SceneError> {
+    let (found, note) = shapes::load_noted(path, &reading(flags)?)?;
     if found.iter().all(|shape| shape.first().is_empty()) {
         return Err(key(flag, format!("{} holds no outline", path.display())));
     }
-    Ok(found)
+    let mut parts = Vec::new();
+    for shape in &found {
+        parts.append(&mut shape.parts().map_err(|error| key(flag, error))?);
+    }
+    let note = note.map(|note| format!("{}: {note}", path.display()));
+    Ok((parts, note))
+}
+
+/// What to say of holes, which no outline has that is found.
+fn holes(path: &Path, shapes: &[Shape]) -> Option<String> {
+    let holes: usize = shapes
+        .iter()
+        .map(|shape| shape.rings.len().max(1) - 1)
+        .sum();
+    let of = shapes.iter().filter(|shape| shape.rings.len() > 1).count();
+    (holes > 0).then(|| {
+        format!(
+            "{}: {} in {} left out: an outline that is found has none",
+            path.display(),
+            counted(holes, "hole"),
+            counted(of, "outline"),
+        )
+    })
 }
 
 /// How the file of the start is read.
@@ -156,9 +196,12 @@ fn reading(flags: &Flags) -> Result<Reading, SceneError> {
         flags::Origin::Center => Origin::Center,
         flags::Origin::Corner => Origin::Corner,
     });
+    let about = flags.about.as_ref();
     Ok(Reading {
         columns,
         origin,
+        beside: about.map(|about| about.name.clone()),
+        size: about.map(|about| about.size),
         ..Reading::default()
     })
 }

@@ -57,3 +57,8 @@ pub(crate) fn soft(pixels: f64) -> Vec<u8> {
     }
     bytes
 }
+
+/// A level as a byte.
+pub(crate) fn byte(level: f64) -> u8 {
+    level.round().clamp(0.0, 255.0) as u8
+}

@@ -295,8 +295,7 @@ fn grid(mut levels: Grid, rule: &PictureReading) -> Result<(Grid, Option<Array2<
     if let Some(((y, x), level)) = levels.indexed_iter().find(|(_, v)| !v.is_finite()) {
         if rule.invalid == Invalid::Refuse {
             return Err(format!(
-                "pixel ({x}, {y}) is {level}; all must be finite numbers (in a scene, invalid = \"mask\" leaves such \
-                 pixels out)"
+                "pixel ({x}, {y}) is {level}; all must be finite numbers"
             ));
         }
         let Some(&first) = levels.iter().find(|v| v.is_finite()) else {

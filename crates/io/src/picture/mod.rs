@@ -22,6 +22,7 @@ mod pnm;
 mod source;
 mod tiff_bands;
 mod tiff_file;
+mod tiff_pages;
 mod tiff_palette;
 mod tiff_size;
 mod webp;

@@ -50,8 +50,7 @@ pub(super) fn read(json: &Json, reading: &Reading) -> Result<Shapes, IoError> {
             continue;
         }
         let at = at.index(index);
-        let shift = shift(reading.origin.unwrap_or(Origin::Corner));
-        let rings = segmentation(one, &at, shift, &mut budget)?;
+        let rings = segmentation(one, &at, reading, &mut budget)?;
         if rings.is_empty() {
             continue;
         }
@@ -107,29 +106,53 @@ fn wanted(
             images.len()
         )));
     }
+    let all = images.values().map(String::as_str);
+    if let (true, Some(name)) = (images.len() > 1, reading.own(all.clone())) {
+        let own = images.iter().find(|(_, known)| *known == name);
+        return Ok(own.map(|(id, _)| id.clone()));
+    }
     let mut used = list.iter().filter_map(|one| one.get("image_id")?.name());
     let Some(first) = used.next() else {
         return Ok(None);
     };
-    if used.any(|id| id != first) {
-        return Err(at.refuse(format!(
+    if !used.any(|id| id != first) {
+        return Ok(None);
+    }
+    Err(at.refuse(match &reading.beside {
+        Some(own) if !images.is_empty() => format!(
+            "outlines of several pictures, and none is called {}; needed: the name of one of {}",
+            clip_to(own, 60),
+            several(all)
+        ),
+        _ => format!(
             "outlines of several pictures, {} in all; one is needed, by file name or id",
             images.len()
-        )));
+        ),
+    }))
+}
+
+/// Some of these names, and how many more there are.
+pub(super) fn several<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<&str> = names.collect();
+    let shown = names.iter().take(5).map(|name| clip_to(name, 40));
+    let shown = shown.collect::<Vec<_>>().join(", ");
+    match names.len() {
+        0..=5 => shown,
+        all => format!("{shown} and {} more", all - 5),
     }
-    Ok(None)
 }
 
 fn segmentation(
     one: &Json,
     at: &At<'_>,
-    shift: DVec2,
+    reading: &Reading,
     budget: &mut Budget,
 ) -> Result<Vec<Vec<DVec2>>, IoError> {
+    let shift = shift(reading.origin.unwrap_or(Origin::Corner));
     let here = at.key("segmentation");
     let given = one.get("segmentation");
     match given {
-        Some(json) if json.get("counts").is_some() => mask(json, &here, budget),
+        Some(json) if json.get("counts").is_some() => mask(json, &here, reading, budget),
         Some(json) if json.list().is_some_and(|list| !list.is_empty()) => {
             let list = json.list().unwrap_or(&[]);
             let mut rings = Vec::new();
@@ -192,7 +215,12 @@ fn ring(
     Ok(points)
 }
 
-fn mask(json: &Json, at: &At<'_>, budget: &mut Budget) -> Result<Vec<Vec<DVec2>>, IoError> {
+fn mask(
+    json: &Json,
+    at: &At<'_>,
+    reading: &Reading,
+    budget: &mut Budget,
+) -> Result<Vec<Vec<DVec2>>, IoError> {
     let size = match json.get("size").and_then(Json::numbers) {
         Some(&[height, width]) => runs::count(height).zip(runs::count(width)),
         _ => None,
@@ -201,6 +229,9 @@ fn mask(json: &Json, at: &At<'_>, budget: &mut Budget) -> Result<Vec<Vec<DVec2>>
         at.key("size")
             .refuse("two whole numbers height, width are needed")
     })?;
+    reading
+        .check_size(width, height)
+        .map_err(|what| at.key("size").refuse(what))?;
     let at = at.key("counts");
     let refuse = |what: String| at.refuse(what);
     let unpacked = match json.get("counts") {

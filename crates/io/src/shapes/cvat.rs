@@ -7,6 +7,7 @@ use glam::DVec2;
 use roxmltree::Node;
 
 use super::budget::{Budget, point, unrepeated};
+use super::coco::several;
 use super::format::{Origin, Reading};
 use super::geojson::shift;
 use super::xml::{number, parse, refuse};
@@ -48,7 +49,13 @@ pub(super) fn read(text: &str, reading: &Reading) -> Result<Shapes, IoError> {
             name == wanted || end == Some(wanted) || node.attribute("id") == Some(wanted)
         }
     };
-    let images: Vec<Node<'_, '_>> = each("image").filter(wanted).collect();
+    let mut images: Vec<Node<'_, '_>> = each("image").filter(wanted).collect();
+    let all: Vec<Node<'_, '_>> = each("image").collect();
+    let own = reading.own(all.iter().filter_map(|node| node.attribute("name")));
+    if reading.picture.is_none() && all.len() > 1 && own.is_some() {
+        images = all;
+        images.retain(|node| node.attribute("name") == own);
+    }
     let image = match &images[..] {
         [image] => image,
         [] => {
@@ -64,10 +71,17 @@ pub(super) fn read(text: &str, reading: &Reading) -> Result<Shapes, IoError> {
         _ => {
             return Err(refuse(
                 root,
-                format!(
-                    "outlines of {} images; one is needed, by file name or id",
-                    images.len()
-                ),
+                match &reading.beside {
+                    Some(own) => format!(
+                        "outlines of several images, and none is called {}; needed: the name of one of {}",
+                        clip_to(own, 60),
+                        several(images.iter().filter_map(|node| node.attribute("name")))
+                    ),
+                    None => format!(
+                        "outlines of {} images; one is needed, by file name or id",
+                        images.len()
+                    ),
+                },
             ));
         }
     };

@@ -64,6 +64,11 @@ pub struct Reading {
     pub origin: Option<Origin>,
     /// Of a file about several pictures: the one that is meant, by its file name or its id.
     pub picture: Option<String>,
+    /// The file name of the picture that outlines are read for: of a file about several pictures, it is taken where
+    /// `picture` names none, by its name or else by its name without the ending.
+    pub beside: Option<String>,
+    /// Width and height of the picture that outlines are read for: a mask, labels and runs of pixels must have them.
+    pub size: Option<(usize, usize)>,
     /// The columns of x and of y of a table, if its heading does not say so.
     pub columns: Option<(Column, Column)>,
     /// Whether each point of a table is an outline of its own: a click or a seed.
@@ -146,6 +151,29 @@ impl Reading {
     pub(super) fn flat(&self) -> f64 {
         self.flatness.unwrap_or(0.01).clamp(1e-6, 1e3)
     }
+
+    /// Refuse pixels of another size than the picture's.
+    pub(super) fn check_size(&self, width: usize, height: usize) -> Result<(), String> {
+        match self.size {
+            Some(size) if size != (width, height) => Err(format!(
+                "has {width}×{height} pixels and the picture has {}×{}; one of the picture's own size is needed",
+                size.0, size.1
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// Of names of pictures, the one that outlines are read for: the first that is alike but for the folder, or else
+    /// the only one that is alike but for the ending too.
+    pub(super) fn own<'a>(&self, names: impl Iterator<Item = &'a str> + Clone) -> Option<&'a str> {
+        let base = |name: &'a str| name.rsplit(['/', '\\']).next().unwrap_or(name);
+        let stem = |name: &'a str| name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+        let wanted = self.beside.as_deref()?;
+        let found = names.clone().find(|name| base(name) == wanted);
+        let wanted = wanted.rsplit_once('.').map_or(wanted, |(stem, _)| stem);
+        let mut alike = names.filter(|name| stem(base(name)) == wanted);
+        found.or_else(|| alike.next().filter(|_| alike.next().is_none()))
+    }
 }
 
 /// The kind of a file by its first bytes.
@@ -198,7 +226,7 @@ pub(super) fn read(bytes: &[u8], reading: &Reading) -> Result<Shapes, IoError> {
         Format::Cvat => cvat::read(text()?, reading),
         Format::ImageJ => imagej::read(bytes, reading),
         Format::Mask | Format::Labels | Format::DeepLabels | Format::Soft => {
-            raster::read(bytes, Some(format))
+            raster::read(bytes, reading).map(|(shapes, _)| shapes)
         }
     }
 }
@@ -216,7 +244,7 @@ fn told(bytes: &[u8], reading: &Reading) -> Result<Shapes, IoError> {
         )
     };
     match kind(bytes) {
-        Kind::Picture => return raster::read(bytes, None),
+        Kind::Picture => return raster::read(bytes, reading).map(|(shapes, _)| shapes),
         Kind::ImageJ => return of(Format::ImageJ),
         Kind::Text => {}
     }

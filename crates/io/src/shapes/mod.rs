@@ -21,7 +21,8 @@
 //! | [`Soft`](Format::Soft) | floats, or grey; the line of one half | | |
 //!
 //! Of a picture without a word on its format, 0 and 1 or black and white are a mask, other whole
-//! numbers labels (those of colors their hexadecimal `#rrggbb`), and other numbers a soft mask.
+//! numbers labels (those of colors their hexadecimal `#rrggbb`), and other numbers a soft mask; so are
+//! black, white and grey of 8 or 16 bits where all grey lies along the borders of black and white.
 //!
 //! A table is a line `x,y` for each point.
 //!
@@ -51,6 +52,7 @@ mod line;
 mod raster;
 mod rings;
 mod runs;
+mod soft;
 mod svg;
 mod table;
 mod trace;
@@ -126,6 +128,41 @@ impl Shape {
         own(&self.id) + own(&self.label) + properties.sum::<usize>()
     }
 
+    /// Its parts, each an outline of its own: of an area the outer ring of each and behind it the holes in it, of lines
+    /// and points each ring. Of several parts that have an id, each has its number from 1 behind it: `7.1`, `7.2`.
+    ///
+    /// # Errors
+    ///
+    /// So many rings in rings that they would not be told apart in a sensible time.
+    pub fn parts(&self) -> Result<Shapes, IoError> {
+        if self.rings.len() < 2 {
+            return Ok(vec![self.clone()]);
+        }
+        let parts = if self.closed == Some(false) {
+            (0..self.rings.len()).map(|i| (i, Vec::new())).collect()
+        } else {
+            rings::parts(&self.rings).map_err(|what| IoError::text(None, what))?
+        };
+        let several = parts.len() > 1;
+        let own = |(number, (outer, holes)): (usize, rings::Part)| Self {
+            id: self.id.as_ref().map(|id| {
+                if several {
+                    format!("{id}.{number}")
+                } else {
+                    id.clone()
+                }
+            }),
+            rings: std::iter::once(outer)
+                .chain(holes)
+                .map(|ring| self.rings[ring].clone())
+                .collect(),
+            label: self.label.clone(),
+            closed: self.closed,
+            properties: self.properties.clone(),
+        };
+        Ok((1..).zip(parts).map(own).collect())
+    }
+
     /// Its first ring.
     #[must_use]
     pub fn first(&self) -> &[DVec2] {
@@ -165,6 +202,15 @@ pub fn load(path: &Path) -> Result<Shapes, IoError> {
 ///
 /// As [`load`].
 pub fn load_with(path: &Path, reading: &Reading) -> Result<Shapes, IoError> {
+    load_noted(path, reading).map(|(shapes, _)| shapes)
+}
+
+/// [`load_with`], and what people should know of how the file was read, if there is something.
+///
+/// # Errors
+///
+/// As [`load`].
+pub fn load_noted(path: &Path, reading: &Reading) -> Result<(Shapes, Option<String>), IoError> {
     let most = |head: &[u8]| match format::kind(head) {
         format::Kind::Picture => MOST_STREAM,
         _ => MOST_CONTOUR_BYTES,
@@ -177,7 +223,11 @@ pub fn load_with(path: &Path, reading: &Reading) -> Result<Shapes, IoError> {
         // whatever else it is by its bytes would be a surprise
         reading.format = Some(Format::ImageJ);
     }
-    parse_with(&bytes, &reading).map_err(|error| error.within(&called(path)))
+    let found = match format::kind(&bytes) {
+        format::Kind::Picture if reading.format.is_none() => raster::read(&bytes, &reading),
+        _ => parse_with(&bytes, &reading).map(|shapes| (shapes, None)),
+    };
+    found.map_err(|error| error.within(&called(path)))
 }
 
 /// [`load`] for a file of one outline.

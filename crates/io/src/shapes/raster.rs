@@ -10,7 +10,8 @@ use glam::DVec2;
 use image::{ExtendedColorType, ImageEncoder as _, codecs::png::PngEncoder};
 
 use super::budget::{Budget, cannot};
-use super::format::{Context, Format};
+use super::format::{Context, Format, Reading};
+use super::soft::is_soft;
 use super::trace::{level_lines, parts};
 use super::{Shape, Shapes};
 use crate::IoError;
@@ -19,10 +20,18 @@ use crate::picture::{Numbers, numbers_of};
 /// Crossings of outlines with rows that are followed at once.
 const MOST_CROSSINGS: f64 = 1e9;
 
-pub(super) fn read(bytes: &[u8], format: Option<Format>) -> Result<Shapes, IoError> {
+/// The outlines of a picture, and what people should know of how they were read.
+pub(super) fn read(bytes: &[u8], reading: &Reading) -> Result<(Shapes, Option<String>), IoError> {
     let refuse = |what: String| IoError::text(None, what);
     let numbers = numbers_of(bytes).map_err(refuse)?;
+    let height = numbers.list.len().checked_div(numbers.width).unwrap_or(0);
+    reading.check_size(numbers.width, height).map_err(refuse)?;
     let mut budget = Budget::default();
+    let mut format = reading.format;
+    let soft = format.is_none() && is_soft(&numbers);
+    if soft {
+        format = Some(Format::Soft);
+    }
     let rings = rings(numbers, format, &mut budget).map_err(refuse)?;
     if rings.is_empty() {
         return Err(refuse(
@@ -35,7 +44,9 @@ pub(super) fn read(bytes: &[u8], format: Option<Format>) -> Result<Shapes, IoErr
         rings,
         ..Shape::default()
     };
-    Ok(rings.into_iter().map(shape).collect())
+    let note = "its grey lies along the borders of black and white only: read as a soft mask, with the outline halfway";
+    let note = soft.then(|| note.to_owned());
+    Ok((rings.into_iter().map(shape).collect(), note))
 }
 
 /// Objects by their names, each with its rings.

@@ -144,7 +144,16 @@ fn picture(text: &PictureText, files: &Files<'_>) -> Result<Picture, SceneError>
         Some(InvalidText::Refuse) | None => Invalid::Refuse,
     };
     let picture = match (&text.file, &text.shipped, &text.drawn) {
-        (Some(file), None, None) => Ok(Picture::load_with(&files.path(file), invalid)?),
+        (Some(file), None, None) => {
+            Picture::load_with(&files.path(file), invalid).map_err(|error| {
+                let message = error.to_string();
+                if message.ends_with("must be finite numbers") {
+                    let hint = "; invalid = \"mask\" leaves others out";
+                    return SceneError::key("picture", message + hint);
+                }
+                error.into()
+            })
+        }
         (None, Some(name), None) => catalogue::picture(name),
         (None, None, Some(drawn)) => drawn::picture(drawn),
         (None, None, None) => Err(SceneError::key(
