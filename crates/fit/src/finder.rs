@@ -19,9 +19,6 @@ const REACH: f64 = 1.5;
 /// The last stage may lose so much of the mean strength of the edge.
 const LOST: f64 = 0.05;
 
-/// An edge must be steeper than what is beside it: that at most so much of it.
-const SLOPE: f64 = 0.8;
-
 /// Nodes of an outline, one a pixel.
 const SPACING: f64 = 1.0;
 
@@ -373,8 +370,8 @@ fn doubt(support: &Support, taken: Option<usize>, stepped: bool, rules: &Rules) 
     if closed < needed {
         return Some(Doubt::NoEdge { closed, needed });
     }
-    let (beside, most) = (support.beside, SLOPE);
-    (!stepped && beside > most).then_some(Doubt::Slope { beside, most })
+    let (beside, most) = (support.beside, search::SLOPE);
+    (!stepped && support.is_slope()).then_some(Doubt::Slope { beside, most })
 }
 
 /// The number of nodes that was asked for.

@@ -40,7 +40,16 @@ pub struct Support {
 /// Share of the edge that must be of one polarity for the edge to count in full.
 const PURE: f64 = 0.7;
 
+/// An edge must be steeper than what is beside it: that at most so much of it.
+pub const SLOPE: f64 = 0.8;
+
 impl Support {
+    /// Whether the curve lies on a slope, and on no edge.
+    #[must_use]
+    pub fn is_slope(&self) -> bool {
+        self.beside > SLOPE
+    }
+
     /// How closed the edge is, less where it is of both polarities: the edges of one object are of one, as a rule.
     pub(crate) fn whole(&self) -> f64 {
         if self.edge > 0.0 {
@@ -111,7 +120,7 @@ pub(crate) fn on_edge(view: &View, curve: &[DVec2]) -> f64 {
 /// The slopes beside a curve along the directions of its edge, against these.
 fn beside(view: &View, curve: &Polygon, edge: &[Option<Across>]) -> f64 {
     let normals = curve.normals(1.0);
-    let way = BESIDE * view.radius;
+    let way = (BESIDE * view.radius).max(2.0 * REACH);
     let (mut there, mut here) = (0.0, 0.0);
     for ((p, normal), across) in curve.points.iter().zip(&normals).zip(edge) {
         let places = [*p - way * *normal, *p + way * *normal];

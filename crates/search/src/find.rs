@@ -119,7 +119,7 @@ pub fn find(pixels: &dyn Pixels, start: &Polygon, rules: &Rules) -> Option<Searc
     let some = own.closed > rules.unsure
         && own.polar > NO_POLARITY * own.edge
         && seen.contrast > seen.noise.max(PLAIN * seen.spread);
-    if own.closed > rules.sure || some {
+    if !own.is_slope() && (own.closed > rules.sure || some) {
         return Some(first);
     }
     // nothing at the start or within: it may lie inside
@@ -135,7 +135,8 @@ pub fn find(pixels: &dyn Pixels, start: &Polygon, rules: &Rules) -> Option<Searc
         .and_then(|around| about(pixels, &around, rules));
     let better = second.filter(|second| {
         let other = second.taken().support;
-        is_outline(&other, rules) && other.closed > own.closed + MUCH_BETTER
+        let better = own.is_slope() || other.closed > own.closed + MUCH_BETTER;
+        is_outline(&other, rules) && !other.is_slope() && better
     });
     Some(better.map_or(first, |second| Searched {
         around: true,

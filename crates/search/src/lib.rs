@@ -42,7 +42,7 @@ pub mod whole;
 mod within;
 
 pub use click::find_around;
-pub use evidence::Support;
+pub use evidence::{SLOPE, Support};
 pub use find::{Found, Search, Searched, find};
 pub use rules::{Rules, Sign};
 pub use view::Seen;
