@@ -1,4 +1,5 @@
 //! The method of searches as a library user sees it: outcomes, starts of every kind, what is told.
+#![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
 
 mod common;
 
