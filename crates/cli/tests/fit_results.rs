@@ -1,5 +1,5 @@
-//! What `snake fit` leaves behind besides outlines: the page of all pictures, what is known of each node; pictures named
-//! by patterns.
+//! What `snake fit` leaves behind besides outlines: the page of all pictures, what is known of each node; pictures
+//! named by patterns.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
 #![allow(
     clippy::cast_possible_truncation,

@@ -1,10 +1,10 @@
 //! How firmly an image holds an outline: parts of it are moved aside, and what comes back is measured.
 //!
 //! A stretch of the outline is moved along its normals by a smooth bump and let go as a snake whose rest shape is the
-//! moved curve: left alone it would stay where it was put. Each node is tied to its place there by a spring, a twentieth
-//! as stiff as an edge as high as the image's contrast, so that such an edge brings back 94 % of the bump, one of a
-//! twentieth of it about 40 %, and no edge nothing. Both ways are tried; the rest of the unmoved outline, tied to itself, is
-//! where both count from.
+//! moved curve: left alone it would stay where it was put. Each node is tied to its place there by a spring, a
+//! twentieth as stiff as an edge as high as the image's contrast, so that such an edge brings back 94 % of the bump,
+//! one of a twentieth of it about 40 %, and no edge nothing. Both ways are tried; the rest of the unmoved outline, tied
+//! to itself, is where both count from.
 
 use std::f64::consts::PI;
 use std::fmt;
@@ -46,8 +46,8 @@ const REACH: f64 = 3.0;
 /// How an outline is plucked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pluck {
-    /// How far the middle of a stretch is moved along its normal, outwards and inwards; above 0, and at most three σ of
-    /// the edge force. Pixels.
+    /// How far the middle of a stretch is moved along its normal, outwards and inwards; above 0, and at most three σ
+    /// of the edge force. Pixels.
     pub kick: f64,
 }
 
@@ -298,8 +298,8 @@ impl Curve<'_> {
         Ok(back)
     }
 
-    /// How much of the kick each node takes part in: cos² about the middle of a stretch, so that all stretches together
-    /// would move the whole outline alike.
+    /// How much of the kick each node takes part in: cos² about the middle of a stretch, so that all stretches
+    /// together would move the whole outline alike.
     fn bump(&self, stretch: usize, stretches: usize) -> Vec<f64> {
         let n = self.nodes.len() as f64;
         let wide = n / stretches as f64;

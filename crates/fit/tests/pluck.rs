@@ -19,8 +19,8 @@ fn circle() -> Contour {
     Contour::circle(CENTER, RADIUS)
 }
 
-/// What comes back on a ring by its energy alone, node by node and with small steps: the edge of a disc blurred by the force's
-/// σ and by the pixels, of this share of the contrast; the springs, the tension.
+/// What comes back on a ring by its energy alone, node by node and with small steps: the edge of a disc blurred by the
+/// force's σ and by the pixels, of this share of the contrast; the springs, the tension.
 fn by_hand(stretches: usize, kick: f64, share: f64) -> f64 {
     let variance: f64 = 10.0 + 1.0 / 12.0;
     let n = 376;

@@ -1,7 +1,7 @@
 //! The searches about a start, and which of their curves is taken.
 //!
-//! Each rule compares two curves by what the picture says for them ([`Support`]), never by the curves themselves: the one
-//! nearer to the start is kept unless the other has clearly more of an edge.
+//! Each rule compares two curves by what the picture says for them ([`Support`]), never by the curves themselves: the
+//! one nearer to the start is kept unless the other has clearly more of an edge.
 
 use field::Pixels;
 use glam::DVec2;

@@ -14,8 +14,8 @@ const LARGER: f64 = 1.6;
 /// The largest radius, as a share of the picture's shorter side.
 const LARGEST: f64 = 0.5;
 
-/// The power of an outline's radius that counts beside its edge: of many small closed curves in noise or texture one has a
-/// strong edge by chance.
+/// The power of an outline's radius that counts beside its edge: of many small closed curves in noise or texture one
+/// has a strong edge by chance.
 const SIZE: f64 = 0.4;
 
 /// Points of the circles.

@@ -30,7 +30,8 @@ pub struct Support {
     pub weakest: f64,
     /// Mean strength of the edge. 0 … 1.
     pub edge: f64,
-    /// How steep the picture is a little inside and outside, along the same direction of color, against the edge itself:
+    /// How steep the picture is a little inside and outside, along the same direction of color, against the edge
+    /// itself:
     /// 1 in the middle of a ramp, about 0 beside a step.
     pub beside: f64,
     /// Length of the mean of the edge's color directions: how much it is of one polarity. 0 … `edge`.

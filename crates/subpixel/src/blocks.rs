@@ -1,4 +1,5 @@
-//! A picture in blocks of several pixels, each the mean of its pixels: what an edge is read in that is blurred over many.
+//! A picture in blocks of several pixels, each the mean of its pixels: what an edge is read in that is blurred over
+//! many.
 
 use field::Pixels;
 use glam::DVec2;

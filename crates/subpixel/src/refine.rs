@@ -19,7 +19,8 @@ const SURE_ROUNDS: usize = 2;
 const DOUBT: f64 = 0.92;
 const TRUST: f64 = 0.97;
 
-/// Share of an outline that must be followed, and in blocks of several pixels: what is not sharp is followed only where it is clear.
+/// Share of an outline that must be followed, and in blocks of several pixels: what is not sharp is followed only where
+/// it is clear.
 const HALF: f64 = 0.5;
 const MOST: f64 = 0.8;
 

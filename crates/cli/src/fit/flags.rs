@@ -65,19 +65,20 @@ pub(crate) struct Flags {
     /// Write how the outlines were found: each curve of the searches, or the curve as it moved.
     #[arg(long, value_name = "GIF", conflicts_with_all = ["out_dir", "seeds"])]
     pub animation: Option<PathBuf>,
-    /// Write the moments of a motion, as `snake run` does (at most 1000): CSV if the name ends in .csv, else JSON Lines;
+    /// Write the moments of a motion, as `snake run` does (at most 1000): CSV if the name ends in .csv, else JSON
+    /// Lines;
     /// `-` is standard output.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["out_dir", "seeds"])]
     pub record: Option<PathBuf>,
     /// Write what is known of each node too: its standard error in pixels and the strength of its edge from 0 to 1, as
     /// columns `error` and `edge` of a CSV, lists `node_error` and `node_edge` of GeoJSON, COCO and labelme, in --json.
-    /// The overlay has the strength as color, from yellow (none) to blue, and in orange the sides of the band that holds
-    /// the edge 95 times of 100.
+    /// The overlay has the strength as color, from yellow (none) to blue, and in orange the sides of the band that
+    /// holds the edge 95 times of 100.
     #[arg(long, conflicts_with = "seeds")]
     pub evidence: bool,
     /// Pluck each outline: move stretch by stretch so many pixels outwards and inwards, 2 if not given, let go, and say
-    /// how much comes back: 1 where the picture holds it firmly, 0 where it stays where it was put. The overlay has that
-    /// as color, from yellow (loose) to blue, red where it ran away.
+    /// how much comes back: 1 where the picture holds it firmly, 0 where it stays where it was put. The overlay has
+    /// that as color, from yellow (loose) to blue, red where it ran away.
     #[arg(
         long,
         value_name = "PX",
@@ -90,8 +91,8 @@ pub(crate) struct Flags {
     /// Say what was measured, what was chosen and why, and how it ended.
     #[arg(long)]
     pub explain: bool,
-    /// Leave out pictures whose results are in the folder of --out-dir already, and their rows in the table of --measure,
-    /// which are kept.
+    /// Leave out pictures whose results are in the folder of --out-dir already, and their rows in the table of
+    /// --measure, which are kept.
     #[arg(long, requires = "out_dir")]
     pub resume: bool,
     /// Refuse to write over a file that is there.

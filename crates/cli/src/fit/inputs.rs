@@ -13,8 +13,8 @@ const ENDINGS: [&str; 12] = [
     "png", "jpg", "jpeg", "tif", "tiff", "pgm", "ppm", "pnm", "pbm", "pfm", "webp", "btf",
 ];
 
-/// The files and folders that names stand for: of one with `*`, `?` or `[…]` that is not the name of a file itself, all
-/// that are called so, in the order of their names.
+/// The files and folders that names stand for: of one with `*`, `?` or `[…]` that is not the name of a file itself,
+/// all that are called so, in the order of their names.
 pub(super) fn matched(names: &[PathBuf]) -> Result<Vec<PathBuf>, SceneError> {
     let mut list = Vec::new();
     for name in names {

@@ -26,8 +26,8 @@ const AWAY: [u8; 3] = [170, 20, 20];
 /// Under what is drawn in many colors, so that each is seen on any ground.
 const CASING: [u8; 3] = [0, 0, 0];
 
-/// Half width of the band in which an edge lies 95 times of 100, in standard errors; a wider one than so many pixels says
-/// nothing and is not drawn.
+/// Half width of the band in which an edge lies 95 times of 100, in standard errors; a wider one than so many pixels
+/// says nothing and is not drawn.
 const SURE: f64 = 1.96;
 const WIDEST: f64 = 10.0;
 
