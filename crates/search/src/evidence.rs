@@ -113,7 +113,15 @@ pub(crate) fn on_edge(view: &View, curve: &[DVec2]) -> f64 {
         .iter()
         .zip(&normals)
         .filter(|(p, _)| view.is_known(**p));
-    let strengths = known.map(|(p, n)| view.edges.strength(size(view.edges.across(*p, *n))));
+    let strengths = known.map(|(p, n)| {
+        let across = view.edges.across(*p, *n);
+        let slope = if view.is_forced() {
+            view.signed(across)
+        } else {
+            size(across)
+        };
+        view.edges.strength(slope)
+    });
     let (sum, count) = strengths.fold((0.0, 0.0), |(sum, count), one| (sum + one, count + 1.0));
     if count > 0.0 { sum / count } else { 0.0 }
 }
