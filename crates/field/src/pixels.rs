@@ -78,6 +78,18 @@ pub trait Pixels: fmt::Debug + Send + Sync {
     }
 }
 
+/// Grey levels by themselves: all count.
+impl Pixels for Grid {
+    fn size(&self) -> (usize, usize) {
+        let (height, width) = self.dim();
+        (width, height)
+    }
+
+    fn levels(&self) -> &Grid {
+        self
+    }
+}
+
 /// [`Pixels::limits`] of a grid, over the pixels that count.
 #[must_use]
 pub fn counted_limits(grid: &Grid, valid: Option<&Array2<bool>>) -> [f64; 4] {

@@ -8,23 +8,9 @@
 )]
 
 use field::drawn::{covered, noisy, rounded};
-use field::{Grid, Pixels, Smoothing};
+use field::{Grid, Smoothing};
 use glam::DVec2;
 use instances::{Instances, Rules, Seeds, outline_all};
-
-#[derive(Debug)]
-struct Picture(Grid);
-
-impl Pixels for Picture {
-    fn size(&self) -> (usize, usize) {
-        let (height, width) = self.0.dim();
-        (width, height)
-    }
-
-    fn levels(&self) -> &Grid {
-        &self.0
-    }
-}
 
 /// A circle and what it adds to the ground.
 type Disk = (DVec2, f64, f64);
@@ -41,7 +27,7 @@ fn drawn(dim: (usize, usize), disks: &[Disk], slope: f64, noise: f64, seed: u64)
 }
 
 fn find(picture: Grid) -> Instances {
-    outline_all(&Picture(picture), &Seeds::Auto, &Rules::default()).unwrap()
+    outline_all(&picture, &Seeds::Auto, &Rules::default()).unwrap()
 }
 
 /// Each circle must be one object that has at least so much of their union in common, and there must be no other.

@@ -9,24 +9,10 @@
 )]
 
 use field::drawn::{covered, noisy, rounded};
-use field::{Grid, Pixels, Smoothing};
+use field::{Grid, Smoothing};
 use glam::DVec2;
 use instances::{Circle, Instances, Rules, SeedError, Seeds, outline_all};
 use ndarray::Array2;
-
-#[derive(Debug)]
-struct Picture(Grid);
-
-impl Pixels for Picture {
-    fn size(&self) -> (usize, usize) {
-        let (height, width) = self.0.dim();
-        (width, height)
-    }
-
-    fn levels(&self) -> &Grid {
-        &self.0
-    }
-}
 
 const SIDE: usize = 256;
 
@@ -104,7 +90,7 @@ fn inner(circles: &[Circle]) -> Seeds {
 }
 
 fn find(picture: Grid, seeds: &Seeds) -> Instances {
-    outline_all(&Picture(picture), seeds, &Rules::default()).unwrap()
+    outline_all(&picture, seeds, &Rules::default()).unwrap()
 }
 
 #[test]
@@ -228,7 +214,7 @@ fn labels_are_the_pixels_inside_the_outlines() {
 
 #[test]
 fn seeds_that_are_none_are_refused() {
-    let picture = Picture(Grid::from_elem((20, 30), 1.0));
+    let picture = Grid::from_elem((20, 30), 1.0);
     let circle = |x: f64, radius: f64| {
         Seeds::Circles(vec![Circle {
             center: DVec2::new(x, 5.0),

@@ -1,26 +1,12 @@
 //! The searches on drawn discs: found from near, from outside and from inside, whatever the picture's units.
 
-use field::{Grid, Pixels};
+use field::Grid;
 use glam::DVec2;
 use search::along::Polygon;
 use search::{Rules, Search, find, find_around};
 
 const CENTER: DVec2 = DVec2::new(70.3, 64.8);
 const RADIUS: f64 = 30.0;
-
-#[derive(Debug)]
-struct Picture(Grid);
-
-impl Pixels for Picture {
-    fn size(&self) -> (usize, usize) {
-        let (height, width) = self.0.dim();
-        (width, height)
-    }
-
-    fn levels(&self) -> &Grid {
-        &self.0
-    }
-}
 
 /// Levels of a disc with a soft border, and a little texture so that the ground is not constant.
 fn level(p: DVec2) -> f64 {
@@ -29,10 +15,10 @@ fn level(p: DVec2) -> f64 {
     60.0 + 120.0 * inside + texture
 }
 
-fn picture(change: impl Fn(f64) -> f64) -> Picture {
-    Picture(Grid::from_shape_fn((128, 140), |(y, x)| {
+fn picture(change: impl Fn(f64) -> f64) -> Grid {
+    Grid::from_shape_fn((128, 140), |(y, x)| {
         change(level(DVec2::new(x as f64, y as f64)))
-    }))
+    })
 }
 
 fn circle(center: DVec2, radius: f64) -> Polygon {
@@ -111,7 +97,7 @@ fn a_click_is_enough_and_one_outside_the_picture_is_refused() {
 fn a_disc_cut_by_the_border_is_free_along_it() {
     // the right third of the disc is not in the picture
     let whole = picture(|v| v);
-    let cut = Picture(whole.0.slice(ndarray::s![.., ..80]).to_owned());
+    let cut = whole.slice(ndarray::s![.., ..80]).to_owned();
     let start = Polygon {
         points: circle(CENTER, 1.12 * RADIUS)
             .points
@@ -155,7 +141,7 @@ fn an_open_curve_finds_a_line_of_edge() {
     let level = |(y, x): (usize, usize)| {
         80.0 + 100.0 * (0.5 + (y as f64 - wave(x as f64)) / 3.0).clamp(0.0, 1.0)
     };
-    let picture = Picture(Grid::from_shape_fn((120, 160), level));
+    let picture = Grid::from_shape_fn((120, 160), level);
     let start = Polygon {
         points: vec![
             DVec2::new(12.0, 63.0),

@@ -2,34 +2,20 @@
 
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
 
-use field::{Grid, Pixels, drawn};
+use field::{Grid, drawn};
 use glam::DVec2;
 use search::along::Polygon;
 use subpixel::{Precise, Rules, refine};
 
 const CENTER: DVec2 = DVec2::new(47.3, 46.6);
 
-#[derive(Debug)]
-struct Picture(Grid);
-
-impl Pixels for Picture {
-    fn size(&self) -> (usize, usize) {
-        let (height, width) = self.0.dim();
-        (width, height)
-    }
-
-    fn levels(&self) -> &Grid {
-        &self.0
-    }
-}
-
 /// A disc of level 200 on 60, blurred by a Gaussian of 1 pixel; noise of that standard deviation.
-fn disc(radius: f64, noise: f64, seed: u64) -> Picture {
+fn disc(radius: f64, noise: f64, seed: u64) -> Grid {
     blurred_disc(radius, 1, noise, seed)
 }
 
 /// The same, blurred by so many pixels.
-fn blurred_disc(radius: f64, blur: i32, noise: f64, seed: u64) -> Picture {
+fn blurred_disc(radius: f64, blur: i32, noise: f64, seed: u64) -> Grid {
     let inside = |p: DVec2| p.distance(CENTER) <= radius;
     let sharp = drawn::covered((94, 96), inside, (200.0, 60.0));
     let reach = 4 * blur;
@@ -58,7 +44,7 @@ fn blurred_disc(radius: f64, blur: i32, noise: f64, seed: u64) -> Picture {
     } else {
         blurred
     };
-    Picture(drawn::rounded(&noisy))
+    drawn::rounded(&noisy)
 }
 
 fn circle(radius: f64) -> Polygon {
@@ -69,7 +55,7 @@ fn circle(radius: f64) -> Polygon {
     }
 }
 
-fn moved(picture: &Picture, start: &Polygon) -> Precise {
+fn moved(picture: &Grid, start: &Polygon) -> Precise {
     let rules = Rules {
         reach: 1.5,
         spacing: 1.0,
@@ -176,8 +162,8 @@ fn what_is_no_step_is_left_where_it_was_found() {
     };
     let blank = |_: (usize, usize)| 80.0;
     for picture in [
-        Picture(Grid::from_shape_fn((94, 96), ring)),
-        Picture(Grid::from_shape_fn((94, 96), blank)),
+        Grid::from_shape_fn((94, 96), ring),
+        Grid::from_shape_fn((94, 96), blank),
     ] {
         let found = moved(&picture, &circle(30.4));
         assert!(
@@ -197,7 +183,7 @@ fn an_open_curve_is_moved_onto_its_edge_too() {
         let middle = 40.3 + 0.1 * x as f64;
         60.0 + 140.0 * (0.5 + (y as f64 - middle) / 2.0).clamp(0.0, 1.0)
     };
-    let picture = Picture(Grid::from_shape_fn((94, 96), level));
+    let picture = Grid::from_shape_fn((94, 96), level);
     let start = Polygon {
         points: vec![DVec2::new(10.0, 42.0), DVec2::new(84.0, 48.0)],
         closed: false,
