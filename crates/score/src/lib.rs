@@ -34,6 +34,7 @@
 //! | how well two images of labels agree | [`Instances`] |
 //! | distance from the truth along a normal, and whether a band holds it | [`along_normal`], [`calibration`] |
 //! | a picture whose truth is a formula | [`synthetic`] |
+//! | a sequence of frames whose truth is a formula | [`sequences`] |
 //! | area, axes, roundness and so on of one outline | [`Measures`], [`curvature_extremes`], [`GreyMeans`] |
 //!
 //! An *outline* is one closed polygon or several: each a list of nodes, the last joined to the first. A point is inside
@@ -62,6 +63,7 @@ mod instances;
 mod mask;
 mod measures;
 mod normal;
+pub mod sequences;
 pub mod synthetic;
 
 pub use agreement::Agreement;
