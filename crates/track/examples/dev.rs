@@ -80,6 +80,11 @@ fn main() {
                 }
                 let o = &tracked.outlines[0];
                 let (outline, seen, conf, pred) = (&o.points, o.state, o.confidence, o.prediction);
+                if let Ok(dump) = std::env::var("DUMP") {
+                    use std::io::Write;
+                    let mut f = std::fs::OpenOptions::new().create(true).append(true).open(format!("{dump}_{name}_{kind}.csv")).unwrap();
+                    for p in outline { writeln!(f, "{},{},{}", ious.len() + 1, p.x, p.y).unwrap(); }
+                }
                 let found = score::filled(&[&outline[..]], truth.dim());
                 let i = score::iou(&found, &truth).unwrap();
                 if verbose {

@@ -57,3 +57,4 @@ pub use options::{Options, Start};
 pub use predict::Prediction;
 pub use result::{Event, Happening, Outline, State, Tracked};
 pub use tracker::Tracker;
+pub use start::overlap;
