@@ -5,7 +5,8 @@ use flow::Pyramid;
 use glam::DVec2;
 
 use crate::State;
-use crate::correct::{Band, MODES, Pass, moved, offsets, simple};
+use crate::correct::{Band, MODES, Offsets, calmed, Pass, moved, offsets, simple};
+use crate::edges::{Edges, half};
 use crate::evidence::{Evidence, Look};
 use crate::palette::{Feature, Palette, SAMPLE};
 use crate::predict::{Flowed, Motion, Prediction, flowed};
@@ -23,8 +24,8 @@ const NODES: [f64; 2] = [60.0, 320.0];
 
 /// What is remembered of the first frame; how fast tables and profiles follow.
 const FIRST: f32 = 0.3;
-const LEARN: f64 = 0.1;
-const LEARN_PROFILE: f64 = 0.15;
+#[allow(non_snake_case)] fn LEARN() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("LEARN").ok().and_then(|v| v.parse().ok()).unwrap_or(0.1)) }
+#[allow(non_snake_case)] fn LEARN_PROFILE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("LEARN_PROFILE").ok().and_then(|v| v.parse().ok()).unwrap_or(0.15)) }
 
 /// How fast the reference of evidence follows, and falls while nothing is seen.
 const REFERENCE: f64 = 0.2;
@@ -36,17 +37,17 @@ const GATE: f64 = 1.25;
 const MOST_PRICE: f64 = 1.5;
 
 /// Evidence against the reference below which an object is not seen, unless this share of its nodes is.
-const UNSEEN: f64 = 0.35;
+#[allow(non_snake_case)] fn UNSEEN() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("UNSEEN").ok().and_then(|v| v.parse().ok()).unwrap_or(0.35)) }
 const NODES_SEEN: f64 = 0.35;
 const SIZES: [f64; 2] = [0.4, 2.5];
 
 /// A node is as good as its evidence against this share of its reference, and of a least reference.
-const GOOD: f64 = 0.6;
+#[allow(non_snake_case)] fn GOOD() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("GOOD").ok().and_then(|v| v.parse().ok()).unwrap_or(0.6)) }
 const LEAST_REFERENCE: f64 = 0.15;
 
 /// Pull towards the rest shape: of good nodes, and of bad ones more.
-const PULL: f64 = 0.05;
-const PULL_BAD: f64 = 0.5;
+#[allow(non_snake_case)] fn PULL() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("PULL").ok().and_then(|v| v.parse().ok()).unwrap_or(0.05)) }
+#[allow(non_snake_case)] fn PULL_BAD() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("PULL_BAD").ok().and_then(|v| v.parse().ok()).unwrap_or(0.5)) }
 
 /// Margin of the tables: in the first frame and later. Cells.
 const MARGIN: f64 = 1.0;
@@ -74,9 +75,12 @@ pub(crate) struct Body {
     material: Vec<f64>,
     /// Standard error of each node along its normal. Cells.
     errors: Vec<f64>,
+    /// Offsets that the correction would have made in the first frame, where the outline is right. Cells.
+    bias: Vec<f64>,
     first: Tables,
     running: Tables,
     profiles: Profiles,
+    edges: Edges,
     reference: f64,
     node_reference: Vec<f64>,
     rest: Vec<DVec2>,
@@ -171,10 +175,17 @@ impl Body {
             palette: &palette,
             ratios: &ratios,
             profiles: Some(&profiles),
+            edges: None,
         };
         let evidence = Evidence::of(look, &strips);
         let mean = evidence.mean.max(0.05);
         let node_reference = evidence.nodes.iter().map(|m| m.unwrap_or(mean)).collect();
+        let half = (0.08 * radius).ceil().clamp(3.0, 12.0) as usize;
+        let edges = Edges::learnt(&window, &strips);
+        let bias = offsets(look, &strips, Band { tether: 3.0, half });
+        let bias = bias.map_or_else(|| vec![0.0; count], |found| found.offsets);
+        let most = biasmax();
+        let bias: Vec<f64> = ring::along(&bias, 0.8).iter().map(|b| b.clamp(-most, most)).collect();
         Some(Self {
             block,
             light,
@@ -184,10 +195,12 @@ impl Body {
             motion: Motion::still(count),
             material: (0..count).map(|i| i as f64 / count as f64).collect(),
             errors: vec![0.5; count],
+            bias,
             curve,
             first: tables.clone(),
             running: tables,
             profiles,
+            edges,
             reference: mean,
             node_reference,
             deviation: 0.06,
@@ -252,6 +265,7 @@ impl Body {
             palette: &self.palette,
             ratios: &ratios,
             profiles: Some(&self.profiles),
+            edges: Some((&self.edges, half(&window))),
         };
         let Some(best) = self.best(look, candidates, flow.as_ref(), radius) else {
             return self.coast(Prediction::Flown, 0.0, vec![0.0; self.curve.len()]);
@@ -260,7 +274,7 @@ impl Body {
         let quality = self.quality(&best.evidence);
         let seen = quality.iter().filter(|q| **q > 0.5).count() as f64 / quality.len() as f64;
         let size = (ring::radius(&best.curve) / radius).powi(2);
-        if (confidence < UNSEEN && seen < NODES_SEEN) || size < SIZES[0] || size > SIZES[1] {
+        if (confidence < UNSEEN() && seen < NODES_SEEN) || size < SIZES[0] || size > SIZES[1] {
             return self.coast(best.prediction, confidence, quality);
         }
         self.learn(&window, best, confidence, quality)
@@ -367,12 +381,14 @@ impl Body {
         clippy::cast_sign_loss,
         reason = "a band of a few cells"
     )]
+    fn stage(&self, name: &str, curve: &[DVec2]) { if std::env::var("STAGES").is_ok() { crate::STAGES.lock().unwrap().push((name.to_owned(), curve.iter().map(|p| to_pixels(*p, self.block as f64)).collect())); } }
     fn corrected(&self, look: Look<'_>, from: &Judged, radius: f64, waits: f64) -> Judged {
         let tether = (1.5 * self.innovation).clamp(2.0, (0.5 * radius).max(2.0)) * waits;
-        let half = (2.2 * tether).ceil().clamp(3.0, 12.0);
+        let half = (2.2 * tether).ceil().max(halfmin() * radius).clamp(3.0, 12.0);
         let wide = half.max(0.15 * radius).clamp(4.0, 16.0);
         let mut curve = from.curve.clone();
         let mut evidence = from.evidence.clone();
+        self.stage(&format!("{:?}", from.prediction), &curve);
         for (pass, half, lost) in [
             (Pass::Pose, wide, LOST_POSE),
             (Pass::Pose, wide, LOST_POSE),
@@ -383,13 +399,14 @@ impl Body {
                 tether,
                 half: half as usize,
             };
-            let Some(found) = offsets(look, &strips, band) else {
+            let Some(found) = self.offsets(look, &strips, band) else {
                 continue;
             };
             let next = moved(&strips, &found, pass);
             let after = Evidence::of(look, &Strips::of(&next, radius));
             if after.mean > evidence.mean - lost {
                 (curve, evidence) = (next, after);
+                self.stage(&format!("{pass:?}"), &curve);
             }
         }
         let strips = Strips::of(&curve, radius);
@@ -399,13 +416,15 @@ impl Body {
         };
         let mut normal = 0.0;
         let mut places = None;
-        if let Some(found) = offsets(look, &strips, band) {
+        if let Some(found) = self.offsets(look, &strips, band) {
             let next = moved(&strips, &found, Pass::Full);
             normal =
                 found.offsets.iter().map(|d| d.abs()).sum::<f64>() / found.offsets.len() as f64;
+            self.stage("full", &next);
             let after = Evidence::of(look, &Strips::of(&next, radius));
             let quality = self.quality(&after);
             let next = self.remembered(&next, &quality);
+            self.stage("rem", &next);
             if let Some((next, at)) = simple(&next, curve.len()) {
                 evidence = Evidence::of(look, &Strips::of(&next, radius));
                 (curve, places) = (next, at);
@@ -421,20 +440,27 @@ impl Body {
         }
     }
 
+    /// Offsets less those of the first frame.
+    fn offsets(&self, look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option<Offsets> {
+        let mut found = offsets(look, strips, band)?;
+        found.offsets.iter_mut().zip(&self.bias).for_each(|(d, bias)| *d -= bias);
+        Some(found)
+    }
+
     /// A curve pulled towards the rest shape laid on it.
     fn remembered(&self, curve: &[DVec2], quality: &[f64]) -> Vec<DVec2> {
         let weights: Vec<f64> = quality.iter().map(|q| q + 0.02).collect();
         let laid = ring::laid(&self.rest, curve, &weights);
         let pulled = curve.iter().zip(&self.rest).zip(quality);
         pulled
-            .map(|((p, rest), q)| p.lerp(laid.at(*rest), PULL + PULL_BAD * (1.0 - q)))
+            .map(|((p, rest), q)| p.lerp(laid.at(*rest), PULL() + PULL_BAD() * (1.0 - q)))
             .collect()
     }
 
     /// How good each node is, by its evidence against its reference.
     fn quality(&self, evidence: &Evidence) -> Vec<f64> {
         let one = |(m, reference): (&Option<f64>, &f64)| {
-            let needed = GOOD * reference.max(LEAST_REFERENCE);
+            let needed = GOOD() * reference.max(LEAST_REFERENCE);
             m.map_or(0.0, |m| (m / needed).clamp(0.0, 1.0))
         };
         let own: Vec<f64> = evidence
@@ -505,9 +531,10 @@ impl Body {
         let shares =
             |rate: f64| -> Vec<f32> { quality.iter().map(|q| (rate * sure * q) as f32).collect() };
         self.running
-            .learn(&tables, &shares(LEARN), (LEARN * sure) as f32);
+            .learn(&tables, &shares(LEARN()), (LEARN() * sure) as f32);
         self.profiles
-            .learn(&Profiles::learnt(window, &strips), &shares(LEARN_PROFILE));
+            .learn(&Profiles::learnt(window, &strips), &shares(LEARN_PROFILE()));
+        self.edges.learn(window, &strips, &shares(0.1));
         self.reference += REFERENCE * sure * (best.evidence.mean - self.reference);
         self.reference = self.reference.max(0.05);
         for ((reference, m), q) in self
@@ -595,3 +622,7 @@ fn sample(window: &Window, curve: &[DVec2], radius: f64) -> Vec<Feature> {
     }
     features
 }
+
+fn halfmin() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("HALF").ok().and_then(|v| v.parse().ok()).unwrap_or(0.0)) }
+
+fn biasmax() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("BIAS").ok().and_then(|v| v.parse().ok()).unwrap_or(3.0)) }

@@ -10,12 +10,13 @@ use crate::ring;
 use crate::tables::Strips;
 
 /// Weight of the region and of the profile, and the most that a profile may speak against a place.
-const REGION: f64 = 0.7;
-const PROFILE: f64 = 3.0;
+#[allow(non_snake_case)] fn REGION() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("REGION").ok().and_then(|v| v.parse().ok()).unwrap_or(0.7)) }
+#[allow(non_snake_case)] fn EDGE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("EDGE").ok().and_then(|v| v.parse().ok()).unwrap_or(4.0)) }
+#[allow(non_snake_case)] fn PROFILE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("PROFILE").ok().and_then(|v| v.parse().ok()).unwrap_or(3.0)) }
 const WORST: f64 = 3.0;
 
 /// Nodes two cells apart differ in their offsets by so many cells (σ).
-const SLANT: f64 = 0.6;
+#[allow(non_snake_case)] fn SLANT() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("SLANT").ok().and_then(|v| v.parse().ok()).unwrap_or(0.6)) }
 const APART: f64 = 2.0;
 
 /// The most that neighbours may differ. Cells.
@@ -77,13 +78,16 @@ pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option
         }
         for (k, cost) in row.iter_mut().enumerate() {
             let d = k as f64 - band.half as f64;
-            *cost = -REGION * sums[k] + 0.5 * (d / band.tether).powi(2);
+            *cost = -REGION() * sums[k] + tail(d / band.tether);
             if let Some(profiles) = look.profiles {
                 let samples: Option<Vec<Feature>> = line[k..k + SAMPLES].iter().copied().collect();
                 let misfit = samples.map_or(WORST, |samples| {
                     (0.5 * profiles.misfit(i, &samples)).min(WORST)
                 });
-                *cost += PROFILE * misfit;
+                *cost += PROFILE() * misfit;
+            }
+            if let Some((edges, half)) = look.edges {
+                *cost -= EDGE() * edges.at(look.window, strips, i, d + edges.offsets[i], half);
             }
             let [inner, outer] = strips.room[i];
             if -d > inner || d > 2.0 * outer {
@@ -91,7 +95,7 @@ pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option
             }
         }
     }
-    let bend = 0.5 / (SLANT * SLANT) * APART / spacing.max(0.25);
+    let bend = 0.5 / (SLANT() * SLANT()) * APART / spacing.max(0.25);
     let costs = Costs::new(states, cost);
     let path = costs.closed_path(Steps { bend, reach: REACH })?;
     let mut offsets = Vec::with_capacity(n);
@@ -139,7 +143,13 @@ pub(crate) const MODES: usize = 8;
 
 /// Smoothing of offsets in nodes, and stiffness against the shortest waves.
 const OFFSETS: f64 = 0.8;
-const STIFF: f64 = 0.15;
+#[allow(non_snake_case)] fn STIFF() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("STIFF").ok().and_then(|v| v.parse().ok()).unwrap_or(0.15)) }
+
+/// A curve without the shortest waves of its difference from a shape.
+pub(crate) fn calmed(curve: &[DVec2], shape: &[DVec2]) -> Vec<DVec2> {
+    let off: Vec<DVec2> = curve.iter().zip(shape).map(|(p, q)| *p - *q).collect();
+    ring::calmed(&off, STIFF()).iter().zip(shape).map(|(off, q)| *off + *q).collect()
+}
 
 /// The curve moved by its offsets.
 pub(crate) fn moved(strips: &Strips<'_>, found: &Offsets, pass: Pass) -> Vec<DVec2> {
@@ -178,7 +188,7 @@ pub(crate) fn moved(strips: &Strips<'_>, found: &Offsets, pass: Pass) -> Vec<DVe
                 .zip(ways(&smooth))
                 .map(|(p, way)| *p + way)
                 .collect();
-            ring::calmed(&curve, STIFF)
+            curve
         }
     }
 }
@@ -203,3 +213,9 @@ pub(crate) fn simple(curve: &[DVec2], count: usize) -> Option<(Vec<DVec2>, Optio
     nodes.rotate_left(first);
     (nodes.len() >= 3).then(|| (ring::evenly(&nodes, count).0, None))
 }
+
+fn tail(z: f64) -> f64 {
+    let nu = nu();
+    if nu > 50.0 { 0.5 * z * z } else { nu * (1.0 + 0.5 * z * z / nu).ln() }
+}
+fn nu() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("NU").ok().and_then(|v| v.parse().ok()).unwrap_or(100.0)) }

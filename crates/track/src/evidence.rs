@@ -1,5 +1,6 @@
 //! What a frame says for a curve: whether what lies inside and outside, and across it, is what was learnt.
 
+use crate::edges::Edges;
 use crate::palette::{Feature, Palette};
 use crate::profile::{HALF, Profiles, SAMPLES};
 use crate::tables::{Ratios, Strips};
@@ -21,6 +22,8 @@ pub(crate) struct Look<'a> {
     pub palette: &'a Palette,
     pub ratios: &'a Ratios,
     pub profiles: Option<&'a Profiles>,
+    /// Edges, and the slope of half an edge in this window.
+    pub edges: Option<(&'a Edges, f32)>,
 }
 
 /// Evidence of each node and the mean; about 1 at best.

@@ -36,8 +36,10 @@
 //! Units: pixels, x to the right and y down, the first pixel's center at (0, 0); times in frames. This crate reads no
 //! files.
 
+pub static STAGES_: u8 = 0;
 mod body;
 mod correct;
+mod edges;
 mod error;
 mod evidence;
 mod options;
@@ -58,3 +60,5 @@ pub use predict::Prediction;
 pub use result::{Event, Happening, Outline, State, Tracked};
 pub use tracker::Tracker;
 pub use start::overlap;
+
+pub static STAGES: std::sync::Mutex<Vec<(String, Vec<glam::DVec2>)>> = std::sync::Mutex::new(Vec::new());

@@ -157,10 +157,19 @@ pub(crate) fn evenly(curve: &[DVec2], count: usize) -> (Vec<DVec2>, Vec<f64>) {
         } else {
             0.0
         };
-        points.push(curve[at].lerp(curve[(at + 1) % n], share));
+        points.push(bent(curve, at, share));
         places.push(at as f64 + share);
     }
     (points, places)
+}
+
+/// A place between two nodes on the cubic through four (Catmull and Rom's).
+fn bent(curve: &[DVec2], at: usize, share: f64) -> DVec2 {
+    let n = curve.len();
+    let node = |k: usize| curve[(at + n + k - 1) % n];
+    let (a, b, c, d) = (node(0), node(1), node(2), node(3));
+    let t = share;
+    0.5 * (2.0 * b + t * ((c - a) + t * ((2.0 * a - 5.0 * b + 4.0 * c - d) + t * (3.0 * (b - c) + d - a))))
 }
 
 /// Values of nodes at places between them.

@@ -6,11 +6,11 @@ use crate::palette::Palette;
 use crate::window::Window;
 
 /// Depth of the strips on either side, in radii and between these. Cells.
-const DEPTH: f64 = 0.25;
+#[allow(non_snake_case)] fn DEPTH() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("DEPTH").ok().and_then(|v| v.parse().ok()).unwrap_or(0.25)) }
 const DEPTHS: [f64; 2] = [6.0, 25.0];
 
 /// σ along the curve of the tables of nodes: of the depth, and at least. Nodes.
-const WIDE: f64 = 0.35;
+#[allow(non_snake_case)] fn WIDE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("WIDE").ok().and_then(|v| v.parse().ok()).unwrap_or(0.35)) }
 const LEAST_WIDE: f64 = 2.0;
 
 /// Samples outside end where the curve is as near elsewhere, times this.
@@ -24,7 +24,7 @@ const UNSEEN: f32 = 0.3;
 
 /// Depth of the strips.
 pub(crate) fn depth(radius: f64) -> f64 {
-    (DEPTH * radius).clamp(DEPTHS[0], DEPTHS[1])
+    (DEPTH() * radius).clamp(DEPTHS[0], DEPTHS[1])
 }
 
 /// A curve with what its strips need.
@@ -89,7 +89,7 @@ impl Tables {
                     d += 1.0;
                 }
             }
-            let sigma = (WIDE * strips.depth).max(LEAST_WIDE);
+            let sigma = (WIDE() * strips.depth).max(LEAST_WIDE);
             let reach = (2.5 * sigma).ceil() as usize;
             let weights: Vec<f32> = (0..=reach)
                 .map(|j| (-0.5 * (j as f64 / sigma).powi(2)).exp() as f32)
