@@ -46,9 +46,12 @@ const SIZES: [f64; 2] = [0.4, 2.5];
 const LEAST_REFERENCE: f64 = 0.15;
 
 /// Pull towards the rest shape: of good nodes, and of bad ones more.
-#[allow(non_snake_case)] fn PULL() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("PULL").ok().and_then(|v| v.parse().ok()).unwrap_or(0.05)) }
-#[allow(non_snake_case)] fn PULL_BAD() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("PULL_BAD").ok().and_then(|v| v.parse().ok()).unwrap_or(0.5)) }
+#[allow(non_snake_case)] fn PULL() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("PULL").ok().and_then(|v| v.parse().ok()).unwrap_or(0.3)) }
+#[allow(non_snake_case)] fn PULL_BAD() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("PULL_BAD").ok().and_then(|v| v.parse().ok()).unwrap_or(0.15)) }
 
+#[allow(non_snake_case)] fn DEVMIN() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("DEVMIN").ok().and_then(|v| v.parse().ok()).unwrap_or(0.01)) }
+#[allow(non_snake_case)] fn RESTSTIFF() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("RESTSTIFF").ok().and_then(|v| v.parse().ok()).unwrap_or(0.015)) }
+#[allow(non_snake_case)] fn CREEP() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("CREEP").ok().and_then(|v| v.parse().ok()).unwrap_or(0.3)) }
 /// Margin of the tables: in the first frame and later. Cells.
 const MARGIN: f64 = 1.0;
 
@@ -131,6 +134,7 @@ struct Judged {
     evidence: Evidence,
     price: f64,
     moved: f64,
+    off: f64,
 }
 
 impl Body {
@@ -342,6 +346,7 @@ impl Body {
                     evidence,
                     price,
                     moved: 0.0,
+                    off: 0.0,
                 }
             })
             .collect();
@@ -361,6 +366,16 @@ impl Body {
         tried
             .into_iter()
             .max_by(|a, b| value(a).total_cmp(&value(b)))
+    }
+
+    /// How far most nodes of a shape are from the rest shape, as the standard deviation along one axis, in radii.
+    fn median_off(&self, curve: &[DVec2], quality: &[f64]) -> f64 {
+        let weights: Vec<f64> = quality.iter().map(|q| q + 0.02).collect();
+        let motion = ring::laid(&self.rest, curve, &weights);
+        let normals = ring::normals(curve);
+        let mut off: Vec<f64> = (0..curve.len()).map(|i| (curve[i] - motion.at(self.rest[i])).dot(normals[i]).abs()).collect();
+        let at = off.len() * 2 / 3;
+        *off.select_nth_unstable_by(at, f64::total_cmp).1 / ring::radius(curve).max(1.0)
     }
 
     /// How far a shape is from the rest shape, in radii.
@@ -414,7 +429,7 @@ impl Body {
             tether,
             half: half as usize,
         };
-        let mut normal = 0.0;
+        let (mut normal, mut off) = (0.0, self.deviation);
         let mut places = None;
         if let Some(found) = self.offsets(look, &strips, band) {
             let next = moved(&strips, &found, Pass::Full);
@@ -423,6 +438,7 @@ impl Body {
             self.stage("full", &next);
             let after = Evidence::of(look, &Strips::of(&next, radius));
             let quality = self.quality(&after);
+            off = self.median_off(&next, &quality);
             let next = self.remembered(&next, &quality);
             self.stage("rem", &next);
             if let Some((next, at)) = simple(&next, curve.len()) {
@@ -437,6 +453,7 @@ impl Body {
             evidence,
             price: from.price,
             moved: normal,
+            off,
         }
     }
 
@@ -451,10 +468,15 @@ impl Body {
     fn remembered(&self, curve: &[DVec2], quality: &[f64]) -> Vec<DVec2> {
         let weights: Vec<f64> = quality.iter().map(|q| q + 0.02).collect();
         let laid = ring::laid(&self.rest, curve, &weights);
-        let pulled = curve.iter().zip(&self.rest).zip(quality);
-        pulled
-            .map(|((p, rest), q)| p.lerp(laid.at(*rest), PULL() + PULL_BAD() * (1.0 - q)))
-            .collect()
+        let shape: Vec<DVec2> = self.rest.iter().map(|p| laid.at(*p)).collect();
+        let curve = calmed(curve, &shape);
+        let usual = (self.deviation * ring::radius(&curve)).powi(2);
+        let pull = |q: f64| {
+            let noise = (PULL() / (q + PULL_BAD())).powi(2);
+            noise / (noise + usual)
+        };
+        let pulled = curve.iter().zip(&shape).zip(quality);
+        pulled.map(|((p, rest), q)| p.lerp(*rest, pull(*q))).collect()
     }
 
     /// How good each node is, by its evidence against its reference.
@@ -519,12 +541,12 @@ impl Body {
         self.innovation = 0.8 * self.innovation + 0.2 * best.moved;
         let weights: Vec<f64> = quality.iter().map(|q| q + 0.02).collect();
         let laid = ring::laid(&self.rest, &self.curve, &weights);
-        let off = self.off_rest(&self.curve);
-        self.deviation = (0.95 * self.deviation + 0.05 * off).max(0.02);
+        self.deviation = (0.9 * self.deviation + 0.1 * best.off).max(DEVMIN());
         for ((rest, p), q) in self.rest.iter_mut().zip(&self.curve).zip(&quality) {
             let on = laid.at(*rest);
-            *rest = on.lerp(*p, 0.2 * q);
+            *rest = on.lerp(*p, CREEP() * q);
         }
+        self.rest = ring::calmed(&self.rest, RESTSTIFF());
         let strips = Strips::of(&self.curve, radius);
         let tables = Tables::learnt(window, &self.palette, &strips, MARGIN);
         let sure = confidence.clamp(0.0, 1.0);
@@ -625,4 +647,4 @@ fn sample(window: &Window, curve: &[DVec2], radius: f64) -> Vec<Feature> {
 
 fn halfmin() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("HALF").ok().and_then(|v| v.parse().ok()).unwrap_or(0.0)) }
 
-fn biasmax() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("BIAS").ok().and_then(|v| v.parse().ok()).unwrap_or(3.0)) }
+fn biasmax() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("BIAS").ok().and_then(|v| v.parse().ok()).unwrap_or(0.0)) }

@@ -10,9 +10,9 @@ use crate::ring;
 use crate::tables::Strips;
 
 /// Weight of the region and of the profile, and the most that a profile may speak against a place.
-#[allow(non_snake_case)] fn REGION() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("REGION").ok().and_then(|v| v.parse().ok()).unwrap_or(0.7)) }
-#[allow(non_snake_case)] fn EDGE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("EDGE").ok().and_then(|v| v.parse().ok()).unwrap_or(4.0)) }
-#[allow(non_snake_case)] fn PROFILE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("PROFILE").ok().and_then(|v| v.parse().ok()).unwrap_or(3.0)) }
+#[allow(non_snake_case)] fn REGION() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("REGION").ok().and_then(|v| v.parse().ok()).unwrap_or(0.5)) }
+#[allow(non_snake_case)] fn EDGE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("EDGE").ok().and_then(|v| v.parse().ok()).unwrap_or(6.0)) }
+#[allow(non_snake_case)] fn PROFILE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("PROFILE").ok().and_then(|v| v.parse().ok()).unwrap_or(1.0)) }
 const WORST: f64 = 3.0;
 
 /// Nodes two cells apart differ in their offsets by so many cells (σ).
@@ -218,4 +218,4 @@ fn tail(z: f64) -> f64 {
     let nu = nu();
     if nu > 50.0 { 0.5 * z * z } else { nu * (1.0 + 0.5 * z * z / nu).ln() }
 }
-fn nu() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("NU").ok().and_then(|v| v.parse().ok()).unwrap_or(100.0)) }
+fn nu() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("NU").ok().and_then(|v| v.parse().ok()).unwrap_or(2.0)) }
