@@ -5,7 +5,8 @@ use flow::Pyramid;
 use glam::DVec2;
 
 use crate::State;
-use crate::correct::{Band, MODES, Offsets, calmed, Pass, moved, offsets, simple};
+use crate::correct;
+use crate::correct::{Band, MODES, Offsets, Pass, calmed, moved, offsets, simple};
 use crate::edges::{Edges, half};
 use crate::evidence::{Evidence, Look};
 use crate::palette::{Feature, Palette, SAMPLE};
@@ -24,8 +25,26 @@ const NODES: [f64; 2] = [60.0, 320.0];
 
 /// What is remembered of the first frame; how fast tables and profiles follow.
 const FIRST: f32 = 0.3;
-#[allow(non_snake_case)] fn LEARN() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("LEARN").ok().and_then(|v| v.parse().ok()).unwrap_or(0.1)) }
-#[allow(non_snake_case)] fn LEARN_PROFILE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("LEARN_PROFILE").ok().and_then(|v| v.parse().ok()).unwrap_or(0.15)) }
+#[allow(non_snake_case)]
+fn LEARN() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("LEARN")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.1)
+    })
+}
+#[allow(non_snake_case)]
+fn LEARN_PROFILE() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("LEARN_PROFILE")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.15)
+    })
+}
 
 /// How fast the reference of evidence follows, and falls while nothing is seen.
 const REFERENCE: f64 = 0.2;
@@ -37,21 +56,84 @@ const GATE: f64 = 1.25;
 const MOST_PRICE: f64 = 1.5;
 
 /// Evidence against the reference below which an object is not seen, unless this share of its nodes is.
-#[allow(non_snake_case)] fn UNSEEN() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("UNSEEN").ok().and_then(|v| v.parse().ok()).unwrap_or(0.35)) }
+#[allow(non_snake_case)]
+fn UNSEEN() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("UNSEEN")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.35)
+    })
+}
 const NODES_SEEN: f64 = 0.35;
 const SIZES: [f64; 2] = [0.4, 2.5];
 
 /// A node is as good as its evidence against this share of its reference, and of a least reference.
-#[allow(non_snake_case)] fn GOOD() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("GOOD").ok().and_then(|v| v.parse().ok()).unwrap_or(0.6)) }
+#[allow(non_snake_case)]
+fn GOOD() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("GOOD")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.6)
+    })
+}
 const LEAST_REFERENCE: f64 = 0.15;
 
 /// Pull towards the rest shape: of good nodes, and of bad ones more.
-#[allow(non_snake_case)] fn PULL() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("PULL").ok().and_then(|v| v.parse().ok()).unwrap_or(0.3)) }
-#[allow(non_snake_case)] fn PULL_BAD() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("PULL_BAD").ok().and_then(|v| v.parse().ok()).unwrap_or(0.15)) }
+#[allow(non_snake_case)]
+fn PULL() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("PULL")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.3)
+    })
+}
+#[allow(non_snake_case)]
+fn PULL_BAD() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("PULL_BAD")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.15)
+    })
+}
 
-#[allow(non_snake_case)] fn DEVMIN() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("DEVMIN").ok().and_then(|v| v.parse().ok()).unwrap_or(0.01)) }
-#[allow(non_snake_case)] fn RESTSTIFF() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("RESTSTIFF").ok().and_then(|v| v.parse().ok()).unwrap_or(0.015)) }
-#[allow(non_snake_case)] fn CREEP() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("CREEP").ok().and_then(|v| v.parse().ok()).unwrap_or(0.3)) }
+#[allow(non_snake_case)]
+fn DEVMIN() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("DEVMIN")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.01)
+    })
+}
+#[allow(non_snake_case)]
+fn RESTSTIFF() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("RESTSTIFF")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.015)
+    })
+}
+#[allow(non_snake_case)]
+fn CREEP() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("CREEP")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.3)
+    })
+}
 /// Margin of the tables: in the first frame and later. Cells.
 const MARGIN: f64 = 1.0;
 
@@ -90,6 +172,8 @@ pub(crate) struct Body {
     deviation: f64,
     motion: Motion,
     innovation: f64,
+    /// How well each node was seen last, 0 … 1.
+    quality: Vec<f64>,
     coasting: u32,
     plain: Vec<DVec2>,
 }
@@ -135,6 +219,7 @@ struct Judged {
     price: f64,
     moved: f64,
     off: f64,
+    hidden: Vec<bool>,
 }
 
 impl Body {
@@ -171,7 +256,7 @@ impl Body {
         let window = Window::of(frame.pixels, block, light, low - around, high + around);
         let palette = Palette::of(&sample(&window, &curve, radius), light.color);
         let strips = Strips::of(&curve, radius);
-        let tables = Tables::learnt(&window, &palette, &strips, MARGIN);
+        let tables = Tables::learnt(&window, &palette, &strips, &vec![1.0; count], MARGIN);
         let profiles = Profiles::learnt(&window, &strips);
         let ratios = tables.ratios();
         let look = Look {
@@ -189,7 +274,10 @@ impl Body {
         let bias = offsets(look, &strips, Band { tether: 3.0, half });
         let bias = bias.map_or_else(|| vec![0.0; count], |found| found.offsets);
         let most = biasmax();
-        let bias: Vec<f64> = ring::along(&bias, 0.8).iter().map(|b| b.clamp(-most, most)).collect();
+        let bias: Vec<f64> = ring::along(&bias, 0.8)
+            .iter()
+            .map(|b| b.clamp(-most, most))
+            .collect();
         Some(Self {
             block,
             light,
@@ -209,6 +297,7 @@ impl Body {
             node_reference,
             deviation: 0.06,
             innovation: 2.0,
+            quality: vec![1.0; count],
             coasting: 0,
         })
     }
@@ -252,14 +341,24 @@ impl Body {
         let block = self.block as f64;
         let flow = frame
             .before
-            .and_then(|before| flowed(before, frame.pyramid, &self.curve, block));
+            .and_then(|before| flowed(before, frame.pyramid, &self.curve, &self.quality, block));
         let plain = frame
             .before
-            .and_then(|before| flowed(before, frame.pyramid, &self.plain, block));
+            .and_then(|before| flowed(before, frame.pyramid, &self.plain, &self.quality, block));
         if let Some(plain) = plain {
             self.plain = plain.bent;
         }
-        if std::env::var("PLAIN").is_ok() { let n = self.plain.len(); self.curve = ring::evenly(&self.plain, n).0; self.plain = self.curve.clone(); return Step { prediction: Prediction::Plain, confidence: 1.0, quality: vec![1.0; n], seen: true }; }
+        if std::env::var("PLAIN").is_ok() {
+            let n = self.plain.len();
+            self.curve = ring::evenly(&self.plain, n).0;
+            self.plain = self.curve.clone();
+            return Step {
+                prediction: Prediction::Plain,
+                confidence: 1.0,
+                quality: vec![1.0; n],
+                seen: true,
+            };
+        }
         let candidates = self.candidates(flow.as_ref());
         let radius = ring::radius(&self.curve);
         let window = self.window(frame.pixels, &candidates, radius);
@@ -275,7 +374,8 @@ impl Body {
             return self.coast(Prediction::Flown, 0.0, vec![0.0; self.curve.len()]);
         };
         let confidence = best.evidence.mean / self.reference;
-        let quality = self.quality(&best.evidence);
+        let mut quality = self.quality(&best.evidence);
+        hide(&mut quality, &best.hidden);
         let seen = quality.iter().filter(|q| **q > 0.5).count() as f64 / quality.len() as f64;
         let size = (ring::radius(&best.curve) / radius).powi(2);
         if (confidence < UNSEEN() && seen < NODES_SEEN) || size < SIZES[0] || size > SIZES[1] {
@@ -347,6 +447,7 @@ impl Body {
                     price,
                     moved: 0.0,
                     off: 0.0,
+                    hidden: Vec::new(),
                 }
             })
             .collect();
@@ -373,7 +474,9 @@ impl Body {
         let weights: Vec<f64> = quality.iter().map(|q| q + 0.02).collect();
         let motion = ring::laid(&self.rest, curve, &weights);
         let normals = ring::normals(curve);
-        let mut off: Vec<f64> = (0..curve.len()).map(|i| (curve[i] - motion.at(self.rest[i])).dot(normals[i]).abs()).collect();
+        let mut off: Vec<f64> = (0..curve.len())
+            .map(|i| (curve[i] - motion.at(self.rest[i])).dot(normals[i]).abs())
+            .collect();
         let at = off.len() * 2 / 3;
         *off.select_nth_unstable_by(at, f64::total_cmp).1 / ring::radius(curve).max(1.0)
     }
@@ -396,10 +499,23 @@ impl Body {
         clippy::cast_sign_loss,
         reason = "a band of a few cells"
     )]
-    fn stage(&self, name: &str, curve: &[DVec2]) { if std::env::var("STAGES").is_ok() { crate::STAGES.lock().unwrap().push((name.to_owned(), curve.iter().map(|p| to_pixels(*p, self.block as f64)).collect())); } }
+    fn stage(&self, name: &str, curve: &[DVec2]) {
+        if std::env::var("STAGES").is_ok() {
+            crate::STAGES.lock().unwrap().push((
+                name.to_owned(),
+                curve
+                    .iter()
+                    .map(|p| to_pixels(*p, self.block as f64))
+                    .collect(),
+            ));
+        }
+    }
     fn corrected(&self, look: Look<'_>, from: &Judged, radius: f64, waits: f64) -> Judged {
         let tether = (1.5 * self.innovation).clamp(2.0, (0.5 * radius).max(2.0)) * waits;
-        let half = (2.2 * tether).ceil().max(halfmin() * radius).clamp(3.0, 12.0);
+        let half = (2.2 * tether)
+            .ceil()
+            .max(halfmin() * radius)
+            .clamp(3.0, 12.0);
         let wide = half.max(0.15 * radius).clamp(4.0, 16.0);
         let mut curve = from.curve.clone();
         let mut evidence = from.evidence.clone();
@@ -430,6 +546,7 @@ impl Body {
             half: half as usize,
         };
         let (mut normal, mut off) = (0.0, self.deviation);
+        let mut hidden = Vec::new();
         let mut places = None;
         if let Some(found) = self.offsets(look, &strips, band) {
             let next = moved(&strips, &found, Pass::Full);
@@ -437,7 +554,11 @@ impl Body {
                 found.offsets.iter().map(|d| d.abs()).sum::<f64>() / found.offsets.len() as f64;
             self.stage("full", &next);
             let after = Evidence::of(look, &Strips::of(&next, radius));
-            let quality = self.quality(&after);
+            let mut quality = self.quality(&after);
+            let shape = self.usual(&next, &quality);
+            hidden = correct::hidden(look, &Strips::of(&next, radius), &shape);
+            if std::env::var("HID").is_ok() { let st = Strips::of(&next, radius); let way: Vec<String> = (0..next.len()).step_by(3).map(|i| { let w = (shape[i]-next[i]).dot(st.normals[i]); let cl: Vec<String> = (0..5).map(|d| match look.window.class(next[i] + (1.5 + f64::from(d)) * st.normals[i], look.palette) { Some(c) => if look.ratios.is_known(i, c) { "k".into() } else { "N".into() }, None => "-".into() } ).collect(); format!("{i}:{:.0},{:.0} w{w:.1} q{:.1} {} {}", next[i].x, next[i].y, quality[i], cl.join(""), hidden[i]) }).collect(); println!("{:?} {}", from.prediction, way.join("\n  ")); }
+            hide(&mut quality, &hidden);
             off = self.median_off(&next, &quality);
             let next = self.remembered(&next, &quality);
             self.stage("rem", &next);
@@ -454,21 +575,28 @@ impl Body {
             price: from.price,
             moved: normal,
             off,
+            hidden,
         }
+    }
+
+    /// The rest shape, laid on most of a curve.
+    fn usual(&self, curve: &[DVec2], quality: &[f64]) -> Vec<DVec2> {
+        let weights: Vec<f64> =
+            quality.iter().zip(&self.quality).map(|(now, before)| (now * before) + 0.02).collect();
+        let motion = flow::similarity(&self.rest, curve, &weights).unwrap_or(flow::Similarity::STILL);
+        self.rest.iter().map(|p| motion.at(*p)).collect()
     }
 
     /// Offsets less those of the first frame.
     fn offsets(&self, look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option<Offsets> {
         let mut found = offsets(look, strips, band)?;
-        found.offsets.iter_mut().zip(&self.bias).for_each(|(d, bias)| *d -= bias);
+        found.held.iter_mut().zip(&self.quality).for_each(|(held, q)| *held *= 0.05 + q);
         Some(found)
     }
 
     /// A curve pulled towards the rest shape laid on it.
     fn remembered(&self, curve: &[DVec2], quality: &[f64]) -> Vec<DVec2> {
-        let weights: Vec<f64> = quality.iter().map(|q| q + 0.02).collect();
-        let laid = ring::laid(&self.rest, curve, &weights);
-        let shape: Vec<DVec2> = self.rest.iter().map(|p| laid.at(*p)).collect();
+        let shape = self.usual(curve, quality);
         let curve = calmed(curve, &shape);
         let usual = (self.deviation * ring::radius(&curve)).powi(2);
         let pull = |q: f64| {
@@ -476,7 +604,9 @@ impl Body {
             noise / (noise + usual)
         };
         let pulled = curve.iter().zip(&shape).zip(quality);
-        pulled.map(|((p, rest), q)| p.lerp(*rest, pull(*q))).collect()
+        pulled
+            .map(|((p, rest), q)| p.lerp(*rest, pull(*q)))
+            .collect()
     }
 
     /// How good each node is, by its evidence against its reference.
@@ -548,7 +678,7 @@ impl Body {
         }
         self.rest = ring::calmed(&self.rest, RESTSTIFF());
         let strips = Strips::of(&self.curve, radius);
-        let tables = Tables::learnt(window, &self.palette, &strips, MARGIN);
+        let tables = Tables::learnt(window, &self.palette, &strips, &quality, MARGIN);
         let sure = confidence.clamp(0.0, 1.0);
         let shares =
             |rate: f64| -> Vec<f32> { quality.iter().map(|q| (rate * sure * q) as f32).collect() };
@@ -570,11 +700,21 @@ impl Body {
             }
         }
         self.coasting = 0;
+        self.quality.clone_from(&quality);
         Step {
             prediction: best.prediction,
             confidence,
             quality,
             seen: true,
+        }
+    }
+}
+
+/// Hidden nodes are not seen.
+fn hide(quality: &mut [f64], hidden: &[bool]) {
+    for (quality, hidden) in quality.iter_mut().zip(hidden) {
+        if *hidden {
+            *quality = 0.0;
         }
     }
 }
@@ -645,6 +785,22 @@ fn sample(window: &Window, curve: &[DVec2], radius: f64) -> Vec<Feature> {
     features
 }
 
-fn halfmin() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("HALF").ok().and_then(|v| v.parse().ok()).unwrap_or(0.0)) }
+fn halfmin() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("HALF")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.0)
+    })
+}
 
-fn biasmax() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("BIAS").ok().and_then(|v| v.parse().ok()).unwrap_or(0.0)) }
+fn biasmax() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("BIAS")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.0)
+    })
+}

@@ -10,13 +10,49 @@ use crate::ring;
 use crate::tables::Strips;
 
 /// Weight of the region and of the profile, and the most that a profile may speak against a place.
-#[allow(non_snake_case)] fn REGION() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("REGION").ok().and_then(|v| v.parse().ok()).unwrap_or(0.5)) }
-#[allow(non_snake_case)] fn EDGE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("EDGE").ok().and_then(|v| v.parse().ok()).unwrap_or(6.0)) }
-#[allow(non_snake_case)] fn PROFILE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("PROFILE").ok().and_then(|v| v.parse().ok()).unwrap_or(1.0)) }
+#[allow(non_snake_case)]
+fn REGION() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("REGION")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.5)
+    })
+}
+#[allow(non_snake_case)]
+fn EDGE() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("EDGE")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(6.0)
+    })
+}
+#[allow(non_snake_case)]
+fn PROFILE() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("PROFILE")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(1.0)
+    })
+}
 const WORST: f64 = 3.0;
 
 /// Nodes two cells apart differ in their offsets by so many cells (σ).
-#[allow(non_snake_case)] fn SLANT() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("SLANT").ok().and_then(|v| v.parse().ok()).unwrap_or(0.6)) }
+#[allow(non_snake_case)]
+fn SLANT() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("SLANT")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.6)
+    })
+}
 const APART: f64 = 2.0;
 
 /// The most that neighbours may differ. Cells.
@@ -127,6 +163,34 @@ pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option
     Some(Offsets { offsets, held })
 }
 
+/// An object gives way from so many cells on; so much of what it leaves must be new for it to be hidden.
+const WAY: f64 = 1.0;
+const MOSTLY: f64 = 0.5;
+
+/// Where a curve lies inside of its usual shape and leaves what was never seen beside it: there the object is hidden.
+pub(crate) fn hidden(look: Look<'_>, strips: &Strips<'_>, shape: &[DVec2]) -> Vec<bool> {
+    let n = shape.len();
+    let one = |i: usize| {
+        let way = (shape[i] - strips.curve[i]).dot(strips.normals[i]);
+        if way < WAY {
+            return false;
+        }
+        let (mut new, mut all) = (0.0, 0.0);
+        let mut d = 1.5;
+        while d <= way + 1.0 {
+            if let Some(class) = look.window.class(strips.curve[i] + d * strips.normals[i], look.palette) {
+                new += f64::from(u8::from(!look.ratios.is_known(i, class)));
+                all += 1.0;
+            }
+            d += 1.0;
+        }
+        all > 0.0 && new > MOSTLY * all
+    };
+    let own: Vec<bool> = (0..n).map(one).collect();
+    // the offsets of neighbours are drawn along
+    (0..n).map(|i| (0..5).any(|k| own[(i + n + k - 2) % n])).collect()
+}
+
 /// Which part of the offsets is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Pass {
@@ -143,12 +207,25 @@ pub(crate) const MODES: usize = 8;
 
 /// Smoothing of offsets in nodes, and stiffness against the shortest waves.
 const OFFSETS: f64 = 0.8;
-#[allow(non_snake_case)] fn STIFF() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("STIFF").ok().and_then(|v| v.parse().ok()).unwrap_or(0.15)) }
+#[allow(non_snake_case)]
+fn STIFF() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("STIFF")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.15)
+    })
+}
 
 /// A curve without the shortest waves of its difference from a shape.
 pub(crate) fn calmed(curve: &[DVec2], shape: &[DVec2]) -> Vec<DVec2> {
     let off: Vec<DVec2> = curve.iter().zip(shape).map(|(p, q)| *p - *q).collect();
-    ring::calmed(&off, STIFF()).iter().zip(shape).map(|(off, q)| *off + *q).collect()
+    ring::calmed(&off, STIFF())
+        .iter()
+        .zip(shape)
+        .map(|(off, q)| *off + *q)
+        .collect()
 }
 
 /// The curve moved by its offsets.
@@ -216,6 +293,18 @@ pub(crate) fn simple(curve: &[DVec2], count: usize) -> Option<(Vec<DVec2>, Optio
 
 fn tail(z: f64) -> f64 {
     let nu = nu();
-    if nu > 50.0 { 0.5 * z * z } else { nu * (1.0 + 0.5 * z * z / nu).ln() }
+    if nu > 50.0 {
+        0.5 * z * z
+    } else {
+        nu * (1.0 + 0.5 * z * z / nu).ln()
+    }
 }
-fn nu() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("NU").ok().and_then(|v| v.parse().ok()).unwrap_or(2.0)) }
+fn nu() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("NU")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(2.0)
+    })
+}

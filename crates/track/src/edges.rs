@@ -43,23 +43,38 @@ fn dot(a: &Color, b: &Color) -> f32 {
 
 fn unit(a: Color) -> Color {
     let size = dot(&a, &a).sqrt();
-    if size > 1e-6 { a.map(|v| v / size) } else { [0.0; 3] }
+    if size > 1e-6 {
+        a.map(|v| v / size)
+    } else {
+        [0.0; 3]
+    }
 }
 
 /// How much of an edge a slope is.
 pub(crate) fn strength(slope: f32, half: f32) -> f64 {
-    if slope > 0.0 { f64::from(slope / (slope + half)) } else { 0.0 }
+    if slope > 0.0 {
+        f64::from(slope / (slope + half))
+    } else {
+        0.0
+    }
 }
 
 /// Slope that counts as half an edge in a window.
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of a count")]
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a share of a count"
+)]
 pub(crate) fn half(window: &Window) -> f32 {
     let mut sizes = Vec::new();
     for y in (1..window.height.saturating_sub(1)).step_by(2) {
         for x in (1..window.width.saturating_sub(1)).step_by(2) {
             let at = |x: usize, y: usize| color(&window.features[y * window.width + x]);
-            let (left, right, above, below) = (at(x - 1, y), at(x + 1, y), at(x, y - 1), at(x, y + 1));
-            let slope = |a: Color, b: Color| -> f32 { a.iter().zip(b).map(|(a, b)| (b - a) * (b - a)).sum() };
+            let (left, right, above, below) =
+                (at(x - 1, y), at(x + 1, y), at(x, y - 1), at(x, y + 1));
+            let slope = |a: Color, b: Color| -> f32 {
+                a.iter().zip(b).map(|(a, b)| (b - a) * (b - a)).sum()
+            };
             sizes.push(0.5 * (slope(left, right) + slope(above, below)).sqrt());
         }
     }
@@ -75,35 +90,61 @@ impl Edges {
     pub(crate) fn learnt(window: &Window, strips: &Strips<'_>) -> Self {
         let directions = directions(window, strips);
         let n = strips.curve.len();
-        let mut edges = Self { directions, offsets: vec![0.0; n] };
+        let mut edges = Self {
+            directions,
+            offsets: vec![0.0; n],
+        };
         let half = half(window);
         let mut sums = vec![0.0; n];
         let mut weights = vec![0.0; n];
         for i in 0..n {
             let near = NEAR.cast_signed();
-            let values: Vec<f64> = (-near..=near).map(|d| edges.at(window, strips, i, d as f64, half)).collect();
-            let best = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(NEAR);
+            let values: Vec<f64> = (-near..=near)
+                .map(|d| edges.at(window, strips, i, d as f64, half))
+                .collect();
+            let best = (0..values.len())
+                .max_by(|&a, &b| values[a].total_cmp(&values[b]))
+                .unwrap_or(NEAR);
             if best > 0 && best + 1 < values.len() {
                 let (a, b, c) = (values[best - 1], values[best], values[best + 1]);
                 let bent = a - 2.0 * b + c;
-                let share = if bent < -1e-9 { (0.5 * (a - c) / bent).clamp(-0.5, 0.5) } else { 0.0 };
+                let share = if bent < -1e-9 {
+                    (0.5 * (a - c) / bent).clamp(-0.5, 0.5)
+                } else {
+                    0.0
+                };
                 sums[i] = b * b * (best as f64 - NEAR as f64 + share);
                 weights[i] = b * b;
             }
         }
         let (sums, weights) = (ring::along(&sums, CALM), ring::along(&weights, CALM));
-        edges.offsets = sums.iter().zip(&weights).map(|(sum, weight)| sum / (weight + 0.01)).collect();
+        edges.offsets = sums
+            .iter()
+            .zip(&weights)
+            .map(|(sum, weight)| sum / (weight + 0.01))
+            .collect();
         edges
     }
 
     /// How much of its edge a node has so far out.
-    pub(crate) fn at(&self, window: &Window, strips: &Strips<'_>, node: usize, offset: f64, half: f32) -> f64 {
+    pub(crate) fn at(
+        &self,
+        window: &Window,
+        strips: &Strips<'_>,
+        node: usize,
+        offset: f64,
+        half: f32,
+    ) -> f64 {
         let (p, normal) = (strips.curve[node], strips.normals[node]);
         let place = |d: f64| window.feature(p + d * normal).map(|f| color(&f));
         let (Some(inner), Some(outer)) = (place(offset - 1.0), place(offset + 1.0)) else {
             return 0.0;
         };
-        let across = [inner[0] - outer[0], inner[1] - outer[1], inner[2] - outer[2]];
+        let across = [
+            inner[0] - outer[0],
+            inner[1] - outer[1],
+            inner[2] - outer[2],
+        ];
         strength(0.5 * dot(&across, &self.directions[node]), half)
     }
 
@@ -133,13 +174,23 @@ fn directions(window: &Window, strips: &Strips<'_>) -> Vec<Color> {
         (count > 0.0).then(|| sum.map(|v: f32| v / count))
     };
     let own: Vec<glam::DVec3> = (0..n)
-        .map(|i| match (mean(i, -1.0, strips.room[i][0]), mean(i, 1.0, strips.room[i][1])) {
-            (Some(a), Some(b)) => {
-                glam::DVec3::new(f64::from(a[0] - b[0]), f64::from(a[1] - b[1]), f64::from(a[2] - b[2]))
+        .map(|i| {
+            match (
+                mean(i, -1.0, strips.room[i][0]),
+                mean(i, 1.0, strips.room[i][1]),
+            ) {
+                (Some(a), Some(b)) => glam::DVec3::new(
+                    f64::from(a[0] - b[0]),
+                    f64::from(a[1] - b[1]),
+                    f64::from(a[2] - b[2]),
+                ),
+                _ => glam::DVec3::ZERO,
             }
-            _ => glam::DVec3::ZERO,
         })
         .collect();
     let smooth = search::along::smoothed(&own, WIDE, true);
-    smooth.iter().map(|v| unit([v.x as f32, v.y as f32, v.z as f32])).collect()
+    smooth
+        .iter()
+        .map(|v| unit([v.x as f32, v.y as f32, v.z as f32]))
+        .collect()
 }

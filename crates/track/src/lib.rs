@@ -58,7 +58,8 @@ pub use error::TrackError;
 pub use options::{Options, Start};
 pub use predict::Prediction;
 pub use result::{Event, Happening, Outline, State, Tracked};
-pub use tracker::Tracker;
 pub use start::overlap;
+pub use tracker::Tracker;
 
-pub static STAGES: std::sync::Mutex<Vec<(String, Vec<glam::DVec2>)>> = std::sync::Mutex::new(Vec::new());
+pub static STAGES: std::sync::Mutex<Vec<(String, Vec<glam::DVec2>)>> =
+    std::sync::Mutex::new(Vec::new());

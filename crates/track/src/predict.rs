@@ -16,6 +16,9 @@ const INSIDE: f64 = 2.0;
 /// The most nodes that are followed.
 const NODES: usize = 80;
 
+/// Weight of points beside nodes that are not seen.
+const LEAST_WEIGHT: f64 = 0.05;
+
 /// The most a node may move otherwise than the object, in radii; σ of the smoothing in nodes of all.
 const STRAY: f64 = 0.3;
 const SMOOTH: f64 = 1.0 / 32.0;
@@ -82,7 +85,7 @@ pub(crate) struct Flowed {
 }
 
 /// Follow a curve and what it encloses from one frame to the next.
-pub(crate) fn flowed(from: &Pyramid, to: &Pyramid, curve: &[DVec2], block: f64) -> Option<Flowed> {
+pub(crate) fn flowed(from: &Pyramid, to: &Pyramid, curve: &[DVec2], quality: &[f64], block: f64) -> Option<Flowed> {
     let n = curve.len();
     let radius = ring::radius(curve);
     let normals = ring::normals(curve);
@@ -101,7 +104,13 @@ pub(crate) fn flowed(from: &Pyramid, to: &Pyramid, curve: &[DVec2], block: f64) 
         .collect();
     let begun: Vec<DVec2> = followed.iter().map(|&i| points[i]).collect();
     let ended: Vec<DVec2> = followed.iter().filter_map(|&i| ends[i]).collect();
-    let rigid = similarity(&begun, &ended, &vec![1.0; begun.len()])?;
+    // what lies beside hidden nodes may be what hides them
+    let nearest = |p: DVec2| {
+        let far = |i: usize| curve[i].distance_squared(p);
+        (0..n).min_by(|&a, &b| far(a).total_cmp(&far(b))).map_or(1.0, |i| quality[i])
+    };
+    let weights: Vec<f64> = begun.iter().map(|p| LEAST_WEIGHT + nearest(*p)).collect();
+    let rigid = similarity(&begun, &ended, &weights)?;
     let share = followed.len() as f64 / points.len().max(1) as f64;
     let carried: Vec<DVec2> = curve.iter().map(|p| rigid.at(*p)).collect();
     // what is left beside the nodes, smoothed along the curve where it is known

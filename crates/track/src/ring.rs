@@ -169,7 +169,8 @@ fn bent(curve: &[DVec2], at: usize, share: f64) -> DVec2 {
     let node = |k: usize| curve[(at + n + k - 1) % n];
     let (a, b, c, d) = (node(0), node(1), node(2), node(3));
     let t = share;
-    0.5 * (2.0 * b + t * ((c - a) + t * ((2.0 * a - 5.0 * b + 4.0 * c - d) + t * (3.0 * (b - c) + d - a))))
+    0.5 * (2.0 * b
+        + t * ((c - a) + t * ((2.0 * a - 5.0 * b + 4.0 * c - d) + t * (3.0 * (b - c) + d - a))))
 }
 
 /// Values of nodes at places between them.

@@ -45,7 +45,11 @@ pub(crate) fn begun(
 /// Whether a start lies on an edge as it is drawn: whether there is as much of one on it as beside it.
 fn is_on_edge(image: &Image, start: &Contour, options: &Options) -> bool {
     let closed = true;
-    let drawn = Polygon { points: start.points.clone(), closed }.outwards();
+    let drawn = Polygon {
+        points: start.points.clone(),
+        closed,
+    }
+    .outwards();
     let Some(searched) = search::find(image.pixels(), &drawn, &options.search) else {
         return false;
     };
@@ -54,7 +58,9 @@ fn is_on_edge(image: &Image, start: &Contour, options: &Options) -> bool {
     let radius = ring::radius(&drawn.points);
     let edge = |offset: f64| {
         let beside = drawn.points.iter().zip(&normals);
-        let points = beside.map(|(p, normal)| *p + offset * radius * *normal).collect();
+        let points = beside
+            .map(|(p, normal)| *p + offset * radius * *normal)
+            .collect();
         searched.support(&Polygon { points, closed }).edge
     };
     edge(0.0) >= PEAK * edge(-BESIDE).max(edge(BESIDE))

@@ -6,11 +6,29 @@ use crate::palette::Palette;
 use crate::window::Window;
 
 /// Depth of the strips on either side, in radii and between these. Cells.
-#[allow(non_snake_case)] fn DEPTH() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("DEPTH").ok().and_then(|v| v.parse().ok()).unwrap_or(0.25)) }
+#[allow(non_snake_case)]
+fn DEPTH() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("DEPTH")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.25)
+    })
+}
 const DEPTHS: [f64; 2] = [6.0, 25.0];
 
 /// σ along the curve of the tables of nodes: of the depth, and at least. Nodes.
-#[allow(non_snake_case)] fn WIDE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("WIDE").ok().and_then(|v| v.parse().ok()).unwrap_or(0.35)) }
+#[allow(non_snake_case)]
+fn WIDE() -> f64 {
+    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *V.get_or_init(|| {
+        std::env::var("WIDE")
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(0.35)
+    })
+}
 const LEAST_WIDE: f64 = 2.0;
 
 /// Samples outside end where the curve is as near elsewhere, times this.
@@ -18,6 +36,9 @@ const BEYOND: f64 = 1.8;
 
 /// The most a class may speak for a side: a logarithm.
 const MOST: f32 = 2.0;
+
+/// A class was seen beside a node from so many times the share of those never seen.
+const NEW: f32 = 2.0;
 
 /// Share of classes never seen, over the number of classes.
 const UNSEEN: f32 = 0.3;
@@ -67,7 +88,7 @@ impl Tables {
         window: &Window,
         palette: &Palette,
         strips: &Strips<'_>,
-        margin: f64,
+        quality: &[f64], margin: f64,
     ) -> Self {
         let (n, k) = (strips.curve.len(), palette.len());
         let sides = [-1.0, 1.0];
@@ -84,7 +105,7 @@ impl Tables {
                     if let Some(class) =
                         window.class(strips.curve[i] + side * d * strips.normals[i], palette)
                     {
-                        counts[i * k + usize::from(class)] += 1.0;
+                        counts[i * k + usize::from(class)] += quality[i] as f32;
                     }
                     d += 1.0;
                 }
@@ -169,14 +190,16 @@ impl Tables {
             .chunks_exact(k)
             .zip(self.local[1].chunks_exact(k));
         let mut ratios = Vec::with_capacity(self.local[0].len());
+        let mut known = Vec::with_capacity(self.local[0].len());
         for (inner, outer) in rows {
             for c in 0..k {
                 let a = 0.5 * (inner[c] + self.pooled[0][c]) + unseen;
                 let b = 0.5 * (outer[c] + self.pooled[1][c]) + unseen;
                 ratios.push((a / b).ln().clamp(-MOST, MOST));
+                known.push(a.max(b) > NEW * unseen);
             }
         }
-        Ratios { k, ratios }
+        Ratios { k, ratios, known }
     }
 
     /// The same for other nodes, at places between these.
@@ -213,9 +236,15 @@ pub(crate) fn respaced(rows: &[f32], k: usize, places: &[f64]) -> Vec<f32> {
 pub(crate) struct Ratios {
     k: usize,
     ratios: Vec<f32>,
+    known: Vec<bool>,
 }
 
 impl Ratios {
+    /// Whether a class was ever seen beside a node, on either side.
+    pub(crate) fn is_known(&self, node: usize, class: u8) -> bool {
+        self.known[node * self.k + usize::from(class)]
+    }
+
     pub(crate) fn at(&self, node: usize, class: u8) -> f64 {
         f64::from(self.ratios[node * self.k + usize::from(class)])
     }
