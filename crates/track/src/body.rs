@@ -134,6 +134,12 @@ fn CREEP() -> f64 {
             .unwrap_or(0.3)
     })
 }
+#[allow(non_snake_case)] fn STRAY() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("STRAY").ok().and_then(|v| v.parse().ok()).unwrap_or(4.0)) }
+#[allow(non_snake_case)] fn STRAYNOISE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("STRAYNOISE").ok().and_then(|v| v.parse().ok()).unwrap_or(0.5)) }
+/// Share of hidden nodes from which on the size is remembered; neighbours of a hidden node that count as hidden.
+const HIDDEN: f64 = 0.08;
+const ALONG: usize = 3;
+
 /// Margin of the tables: in the first frame and later. Cells.
 const MARGIN: f64 = 1.0;
 
@@ -174,6 +180,8 @@ pub(crate) struct Body {
     innovation: f64,
     /// How well each node was seen last, 0 … 1.
     quality: Vec<f64>,
+    /// For how many frames each node was farther from the usual shape than nodes of this object go.
+    astray: Vec<u32>,
     coasting: u32,
     plain: Vec<DVec2>,
 }
@@ -299,6 +307,7 @@ impl Body {
             innovation: 2.0,
             quality: vec![1.0; count],
             coasting: 0,
+            astray: vec![0; count],
         })
     }
 
@@ -556,8 +565,10 @@ impl Body {
             let after = Evidence::of(look, &Strips::of(&next, radius));
             let mut quality = self.quality(&after);
             let shape = self.usual(&next, &quality);
-            hidden = correct::hidden(look, &Strips::of(&next, radius), &shape);
-            if std::env::var("HID").is_ok() { let st = Strips::of(&next, radius); let way: Vec<String> = (0..next.len()).step_by(3).map(|i| { let w = (shape[i]-next[i]).dot(st.normals[i]); let cl: Vec<String> = (0..5).map(|d| match look.window.class(next[i] + (1.5 + f64::from(d)) * st.normals[i], look.palette) { Some(c) => if look.ratios.is_known(i, c) { "k".into() } else { "N".into() }, None => "-".into() } ).collect(); format!("{i}:{:.0},{:.0} w{w:.1} q{:.1} {} {}", next[i].x, next[i].y, quality[i], cl.join(""), hidden[i]) }).collect(); println!("{:?} {}", from.prediction, way.join("\n  ")); }
+            hidden = self.strays(&next, &shape);
+            hide(&mut quality, &hidden);
+            let shape = self.usual(&next, &quality);
+            hidden = self.strays(&next, &shape);
             hide(&mut quality, &hidden);
             off = self.median_off(&next, &quality);
             let next = self.remembered(&next, &quality);
@@ -583,8 +594,27 @@ impl Body {
     fn usual(&self, curve: &[DVec2], quality: &[f64]) -> Vec<DVec2> {
         let weights: Vec<f64> =
             quality.iter().zip(&self.quality).map(|(now, before)| (now * before) + 0.02).collect();
-        let motion = flow::similarity(&self.rest, curve, &weights).unwrap_or(flow::Similarity::STILL);
+        let mut motion = flow::similarity(&self.rest, curve, &weights).unwrap_or(flow::Similarity::STILL);
+        let hidden = quality.iter().zip(&self.astray).filter(|(q, astray)| **q <= 0.0 || **astray > 0).count();
+        if hidden as f64 > HIDDEN * quality.len() as f64 {
+            // what is left to see does not tell the size
+            motion.turn = motion.turn.normalize_or(DVec2::X);
+        }
         self.rest.iter().map(|p| motion.at(*p)).collect()
+    }
+
+    /// Nodes farther from the usual shape than this object's nodes go in a frame.
+    fn strays(&self, curve: &[DVec2], shape: &[DVec2]) -> Vec<bool> {
+        let normals = ring::normals(curve);
+        let usual = self.deviation * ring::radius(curve) + STRAYNOISE();
+        let stray = |i: usize| {
+            let off = (shape[i] - curve[i]).dot(normals[i]).abs();
+            off > STRAY() * usual * (1.0 + (f64::from(self.astray[i]) / 10.0).powi(2))
+        };
+        let own: Vec<bool> = (0..curve.len()).map(stray).collect();
+        let n = own.len();
+        // their neighbours are drawn along
+        (0..n).map(|i| (0..=2 * ALONG).any(|k| own[(i + n + k - ALONG) % n])).collect()
     }
 
     /// Offsets less those of the first frame.
@@ -634,7 +664,7 @@ impl Body {
         self.node_reference.iter_mut().for_each(|m| *m *= FORGET);
         let fade = if self.coasting > 10 { 0.8 } else { 1.0 };
         self.motion.shift *= fade;
-        self.motion.turn = DVec2::X.lerp(self.motion.turn, fade);
+        self.motion.turn = DVec2::X.lerp(self.motion.turn.normalize_or(DVec2::X), fade);
         self.motion.waves.iter_mut().for_each(|wave| *wave *= 0.5);
         Step {
             prediction,
@@ -671,7 +701,8 @@ impl Body {
         self.innovation = 0.8 * self.innovation + 0.2 * best.moved;
         let weights: Vec<f64> = quality.iter().map(|q| q + 0.02).collect();
         let laid = ring::laid(&self.rest, &self.curve, &weights);
-        self.deviation = (0.9 * self.deviation + 0.1 * best.off).max(DEVMIN());
+        let off = best.off.min(2.0 * self.deviation);
+        self.deviation = (0.9 * self.deviation + 0.1 * off).max(DEVMIN());
         for ((rest, p), q) in self.rest.iter_mut().zip(&self.curve).zip(&quality) {
             let on = laid.at(*rest);
             *rest = on.lerp(*p, CREEP() * q);
@@ -698,6 +729,9 @@ impl Body {
             if let Some(m) = m {
                 *reference += REFERENCE * q * (m - *reference);
             }
+        }
+        for (astray, hidden) in self.astray.iter_mut().zip(&best.hidden) {
+            *astray = if *hidden { *astray + 1 } else { 0 };
         }
         self.coasting = 0;
         self.quality.clone_from(&quality);
