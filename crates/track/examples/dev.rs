@@ -100,20 +100,6 @@ fn main() {
                         f.file_name().unwrap()
                     );
                 }
-                for (n, c) in track::STAGES.lock().unwrap().drain(..) {
-                    print!(
-                        " {n} a{:.3} {:.3}",
-                        score::filled(&[&c[..]], truth.dim())
-                            .iter()
-                            .filter(|v| **v)
-                            .count() as f64
-                            / truth.iter().filter(|v| **v).count() as f64,
-                        score::iou(&score::filled(&[&c[..]], truth.dim()), &truth).unwrap()
-                    );
-                }
-                if std::env::var("STAGES").is_ok() {
-                    println!();
-                }
                 let area = |m: &ndarray::Array2<bool>| m.iter().filter(|v| **v).count() as f64;
                 ratios.push(area(&found) / area(&truth));
                 ious.push(i);

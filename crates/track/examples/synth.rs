@@ -50,11 +50,27 @@ fn main() {
                 });
                 if verbose {
                     println!(
-                        "   {t} id {id} iou {i:.3} {:?}", found.map(|o| { let c = o.points.iter().sum::<DVec2>() / o.points.len() as f64; let tc = truth.iter().sum::<DVec2>() / truth.len() as f64; let r = |p: &[DVec2]| { let n = p.len(); ((0..n).map(|i| p[i].perp_dot(p[(i + 1) % n])).sum::<f64>().abs() / 6.2832).sqrt() }; (((c - tc) * 10.0).round() / 10.0, (r(&o.points) / r(&truth) * 100.0).round() / 100.0, 
-                            o.state,
-                            (o.confidence * 100.0).round() / 100.0,
-                            o.prediction
- )})
+                        "   {t} id {id} iou {i:.3} {:?}",
+                        found.map(|o| {
+                            let c = o.points.iter().sum::<DVec2>() / o.points.len() as f64;
+                            let tc = truth.iter().sum::<DVec2>() / truth.len() as f64;
+                            let r = |p: &[DVec2]| {
+                                let n = p.len();
+                                ((0..n)
+                                    .map(|i| p[i].perp_dot(p[(i + 1) % n]))
+                                    .sum::<f64>()
+                                    .abs()
+                                    / 6.2832)
+                                    .sqrt()
+                            };
+                            (
+                                ((c - tc) * 10.0).round() / 10.0,
+                                (r(&o.points) / r(&truth) * 100.0).round() / 100.0,
+                                o.state,
+                                (o.confidence * 100.0).round() / 100.0,
+                                o.prediction,
+                            )
+                        })
                     );
                 }
                 sum += i;

@@ -10,49 +10,17 @@ use crate::ring;
 use crate::tables::Strips;
 
 /// Weight of the region and of the profile, and the most that a profile may speak against a place.
-#[allow(non_snake_case)]
-fn REGION() -> f64 {
-    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
-    *V.get_or_init(|| {
-        std::env::var("REGION")
-            .ok()
-            .and_then(|v| v.parse().ok())
-            .unwrap_or(0.5)
-    })
-}
-#[allow(non_snake_case)]
-fn EDGE() -> f64 {
-    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
-    *V.get_or_init(|| {
-        std::env::var("EDGE")
-            .ok()
-            .and_then(|v| v.parse().ok())
-            .unwrap_or(6.0)
-    })
-}
-#[allow(non_snake_case)]
-fn PROFILE() -> f64 {
-    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
-    *V.get_or_init(|| {
-        std::env::var("PROFILE")
-            .ok()
-            .and_then(|v| v.parse().ok())
-            .unwrap_or(1.0)
-    })
-}
+const REGION: f64 = 0.5;
+/// Weight of an edge.
+const EDGE: f64 = 6.0;
+const PROFILE: f64 = 1.0;
 const WORST: f64 = 3.0;
 
+/// Degrees of freedom of the tether: how soon it lets go.
+const TAIL: f64 = 2.0;
+
 /// Nodes two cells apart differ in their offsets by so many cells (σ).
-#[allow(non_snake_case)]
-fn SLANT() -> f64 {
-    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
-    *V.get_or_init(|| {
-        std::env::var("SLANT")
-            .ok()
-            .and_then(|v| v.parse().ok())
-            .unwrap_or(0.6)
-    })
-}
+const SLANT: f64 = 0.6;
 const APART: f64 = 2.0;
 
 /// The most that neighbours may differ. Cells.
@@ -96,9 +64,7 @@ pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option
         let ratio = |d: isize| {
             // the cell between two places: half a cell beyond the nearer
             let place = strips.curve[i] + d as f64 * strips.normals[i];
-            look.window
-                .class(place, look.palette)
-                .map_or(0.0, |class| look.ratios.at(i, class))
+            look.ratio(i, place).unwrap_or(0.0)
         };
         // what the curve takes in when it goes out by d, and loses when it goes in
         let here = ratio(0);
@@ -114,16 +80,16 @@ pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option
         }
         for (k, cost) in row.iter_mut().enumerate() {
             let d = k as f64 - band.half as f64;
-            *cost = -REGION() * sums[k] + tail(d / band.tether);
+            *cost = -REGION * sums[k] + tail(d / band.tether);
             if let Some(profiles) = look.profiles {
                 let samples: Option<Vec<Feature>> = line[k..k + SAMPLES].iter().copied().collect();
                 let misfit = samples.map_or(WORST, |samples| {
                     (0.5 * profiles.misfit(i, &samples)).min(WORST)
                 });
-                *cost += PROFILE() * misfit;
+                *cost += PROFILE * misfit;
             }
             if let Some((edges, half)) = look.edges {
-                *cost -= EDGE() * edges.at(look.window, strips, i, d + edges.offsets[i], half);
+                *cost -= EDGE * edges.at(look.window, strips, i, d + edges.offsets[i], half);
             }
             let [inner, outer] = strips.room[i];
             if -d > inner || d > 2.0 * outer {
@@ -131,7 +97,7 @@ pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option
             }
         }
     }
-    let bend = 0.5 / (SLANT() * SLANT()) * APART / spacing.max(0.25);
+    let bend = 0.5 / (SLANT * SLANT) * APART / spacing.max(0.25);
     let costs = Costs::new(states, cost);
     let path = costs.closed_path(Steps { bend, reach: REACH })?;
     let mut offsets = Vec::with_capacity(n);
@@ -163,34 +129,6 @@ pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option
     Some(Offsets { offsets, held })
 }
 
-/// An object gives way from so many cells on; so much of what it leaves must be new for it to be hidden.
-const WAY: f64 = 1.0;
-const MOSTLY: f64 = 0.5;
-
-/// Where a curve lies inside of its usual shape and leaves what was never seen beside it: there the object is hidden.
-pub(crate) fn hidden(look: Look<'_>, strips: &Strips<'_>, shape: &[DVec2]) -> Vec<bool> {
-    let n = shape.len();
-    let one = |i: usize| {
-        let way = (shape[i] - strips.curve[i]).dot(strips.normals[i]);
-        if way < WAY {
-            return false;
-        }
-        let (mut new, mut all) = (0.0, 0.0);
-        let mut d = 1.5;
-        while d <= way + 1.0 {
-            if let Some(class) = look.window.class(strips.curve[i] + d * strips.normals[i], look.palette) {
-                new += f64::from(u8::from(!look.ratios.is_known(i, class)));
-                all += 1.0;
-            }
-            d += 1.0;
-        }
-        all > 0.0 && new > MOSTLY * all
-    };
-    let own: Vec<bool> = (0..n).map(one).collect();
-    // the offsets of neighbours are drawn along
-    (0..n).map(|i| (0..5).any(|k| own[(i + n + k - 2) % n])).collect()
-}
-
 /// Which part of the offsets is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Pass {
@@ -207,21 +145,12 @@ pub(crate) const MODES: usize = 8;
 
 /// Smoothing of offsets in nodes, and stiffness against the shortest waves.
 const OFFSETS: f64 = 0.8;
-#[allow(non_snake_case)]
-fn STIFF() -> f64 {
-    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
-    *V.get_or_init(|| {
-        std::env::var("STIFF")
-            .ok()
-            .and_then(|v| v.parse().ok())
-            .unwrap_or(0.15)
-    })
-}
+const STIFF: f64 = 0.15;
 
 /// A curve without the shortest waves of its difference from a shape.
 pub(crate) fn calmed(curve: &[DVec2], shape: &[DVec2]) -> Vec<DVec2> {
     let off: Vec<DVec2> = curve.iter().zip(shape).map(|(p, q)| *p - *q).collect();
-    ring::calmed(&off, STIFF())
+    ring::calmed(&off, STIFF)
         .iter()
         .zip(shape)
         .map(|(off, q)| *off + *q)
@@ -291,20 +220,7 @@ pub(crate) fn simple(curve: &[DVec2], count: usize) -> Option<(Vec<DVec2>, Optio
     (nodes.len() >= 3).then(|| (ring::evenly(&nodes, count).0, None))
 }
 
+/// Half the square of a deviation where it is small, and a logarithm of it where it is large (Student's distribution).
 fn tail(z: f64) -> f64 {
-    let nu = nu();
-    if nu > 50.0 {
-        0.5 * z * z
-    } else {
-        nu * (1.0 + 0.5 * z * z / nu).ln()
-    }
-}
-fn nu() -> f64 {
-    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
-    *V.get_or_init(|| {
-        std::env::var("NU")
-            .ok()
-            .and_then(|v| v.parse().ok())
-            .unwrap_or(2.0)
-    })
+    TAIL * (0.5 * z * z / TAIL).ln_1p()
 }

@@ -36,12 +36,12 @@
 //! Units: pixels, x to the right and y down, the first pixel's center at (0, 0); times in frames. This crate reads no
 //! files.
 
-pub static STAGES_: u8 = 0;
 mod body;
 mod correct;
 mod edges;
 mod error;
 mod evidence;
+mod follow;
 mod options;
 mod palette;
 mod plane;
@@ -49,17 +49,17 @@ mod predict;
 mod profile;
 mod result;
 mod ring;
+mod seek;
+mod shape;
 mod start;
 mod tables;
 mod tracker;
 mod window;
 
+pub use body::State;
 pub use error::TrackError;
 pub use options::{Options, Start};
 pub use predict::Prediction;
-pub use result::{Event, Happening, Outline, State, Tracked};
+pub use result::{Event, Happening, Outline, Tracked};
 pub use start::overlap;
 pub use tracker::Tracker;
-
-pub static STAGES: std::sync::Mutex<Vec<(String, Vec<glam::DVec2>)>> =
-    std::sync::Mutex::new(Vec::new());

@@ -6,29 +6,11 @@ use crate::palette::Palette;
 use crate::window::Window;
 
 /// Depth of the strips on either side, in radii and between these. Cells.
-#[allow(non_snake_case)]
-fn DEPTH() -> f64 {
-    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
-    *V.get_or_init(|| {
-        std::env::var("DEPTH")
-            .ok()
-            .and_then(|v| v.parse().ok())
-            .unwrap_or(0.25)
-    })
-}
+const DEPTH: f64 = 0.25;
 const DEPTHS: [f64; 2] = [6.0, 25.0];
 
 /// σ along the curve of the tables of nodes: of the depth, and at least. Nodes.
-#[allow(non_snake_case)]
-fn WIDE() -> f64 {
-    static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
-    *V.get_or_init(|| {
-        std::env::var("WIDE")
-            .ok()
-            .and_then(|v| v.parse().ok())
-            .unwrap_or(0.35)
-    })
-}
+const WIDE: f64 = 0.35;
 const LEAST_WIDE: f64 = 2.0;
 
 /// Samples outside end where the curve is as near elsewhere, times this.
@@ -37,15 +19,12 @@ const BEYOND: f64 = 1.8;
 /// The most a class may speak for a side: a logarithm.
 const MOST: f32 = 2.0;
 
-/// A class was seen beside a node from so many times the share of those never seen.
-const NEW: f32 = 2.0;
-
 /// Share of classes never seen, over the number of classes.
 const UNSEEN: f32 = 0.3;
 
 /// Depth of the strips.
 pub(crate) fn depth(radius: f64) -> f64 {
-    (DEPTH() * radius).clamp(DEPTHS[0], DEPTHS[1])
+    (DEPTH * radius).clamp(DEPTHS[0], DEPTHS[1])
 }
 
 /// A curve with what its strips need.
@@ -88,7 +67,8 @@ impl Tables {
         window: &Window,
         palette: &Palette,
         strips: &Strips<'_>,
-        quality: &[f64], margin: f64,
+        quality: &[f64],
+        margin: f64,
     ) -> Self {
         let (n, k) = (strips.curve.len(), palette.len());
         let sides = [-1.0, 1.0];
@@ -110,7 +90,7 @@ impl Tables {
                     d += 1.0;
                 }
             }
-            let sigma = (WIDE() * strips.depth).max(LEAST_WIDE);
+            let sigma = (WIDE * strips.depth).max(LEAST_WIDE);
             let reach = (2.5 * sigma).ceil() as usize;
             let weights: Vec<f32> = (0..=reach)
                 .map(|j| (-0.5 * (j as f64 / sigma).powi(2)).exp() as f32)
@@ -190,16 +170,22 @@ impl Tables {
             .chunks_exact(k)
             .zip(self.local[1].chunks_exact(k));
         let mut ratios = Vec::with_capacity(self.local[0].len());
-        let mut known = Vec::with_capacity(self.local[0].len());
         for (inner, outer) in rows {
             for c in 0..k {
                 let a = 0.5 * (inner[c] + self.pooled[0][c]) + unseen;
                 let b = 0.5 * (outer[c] + self.pooled[1][c]) + unseen;
                 ratios.push((a / b).ln().clamp(-MOST, MOST));
-                known.push(a.max(b) > NEW * unseen);
             }
         }
-        Ratios { k, ratios, known }
+        Ratios { k, ratios }
+    }
+
+    /// The same by the tables of all nodes together.
+    pub(crate) fn pooled_ratios(&self) -> Vec<f64> {
+        let unseen = UNSEEN / self.pooled[0].len() as f32;
+        let both = self.pooled[0].iter().zip(&self.pooled[1]);
+        both.map(|(a, b)| f64::from(((a + unseen) / (b + unseen)).ln().clamp(-MOST, MOST)))
+            .collect()
     }
 
     /// The same for other nodes, at places between these.
@@ -236,15 +222,9 @@ pub(crate) fn respaced(rows: &[f32], k: usize, places: &[f64]) -> Vec<f32> {
 pub(crate) struct Ratios {
     k: usize,
     ratios: Vec<f32>,
-    known: Vec<bool>,
 }
 
 impl Ratios {
-    /// Whether a class was ever seen beside a node, on either side.
-    pub(crate) fn is_known(&self, node: usize, class: u8) -> bool {
-        self.known[node * self.k + usize::from(class)]
-    }
-
     pub(crate) fn at(&self, node: usize, class: u8) -> f64 {
         f64::from(self.ratios[node * self.k + usize::from(class)])
     }
