@@ -147,27 +147,11 @@ impl Sequence {
         self.truth(0)
     }
 
-    /// The true objects of a frame as labels, 0 outside. A pixel of two objects belongs to the one with the nearer
-    /// center.
+    /// The true objects of a frame as labels ([`labelled`](crate::tracking::labelled)).
     #[must_use]
     pub fn labels(&self, t: usize) -> Array2<u32> {
         let [width, height] = self.size;
-        let mut labels = Array2::zeros((height, width));
-        let mut near = Array2::from_elem((height, width), f64::INFINITY);
-        let centers: Vec<(u32, DVec2)> = self.objects(t).map(|b| (b.id, b.region.center)).collect();
-        for (id, ring) in self.truth(t) {
-            let center = centers.iter().find(|one| one.0 == id).map(|one| one.1);
-            let mask = crate::filled(&[ring], (height, width));
-            for ((y, x), _) in mask.indexed_iter().filter(|(_, inside)| **inside) {
-                let p = DVec2::new(x as f64, y as f64);
-                let far = center.map_or(0.0, |center| center.distance(p));
-                if far < near[[y, x]] {
-                    near[[y, x]] = far;
-                    labels[[y, x]] = id;
-                }
-            }
-        }
-        labels
+        crate::tracking::labelled(&self.truth(t), (height, width))
     }
 
     fn objects(&self, t: usize) -> impl Iterator<Item = &Body> {

@@ -59,11 +59,11 @@ struct Sums {
 pub struct FollowedFrame {
     /// Intersection over union of the masks; 1 if both are empty.
     pub iou: f64,
-    /// Boundary F at 2 pixels, along the curves ([`Agreement::f`]); 1 if neither has a curve, 0 if one has none.
+    /// Boundary F at 2 pixels, along the curves ([`Agreement::f`]); 1 if neither has a pixel, 0 if one has none.
     pub f: f64,
     /// The boundary F of the DAVIS challenge ([`boundary_f`]).
     pub davis: f64,
-    /// Mean distance of the two curves ([`Agreement::mean`]); None if one has none.
+    /// Mean distance of the two curves ([`Agreement::mean`]); None if one has no pixel.
     pub distance: Option<f64>,
     /// Whether the outline was said to be sure.
     pub sure: bool,
@@ -144,13 +144,10 @@ impl Following {
         mask: &Array2<bool>,
         sure: bool,
     ) -> Result<FollowedFrame, ScoreError> {
-        let empty = |count: usize| count == 0;
-        let nothing = (
-            empty(found.iter().map(|ring| ring.as_ref().len()).sum()),
-            empty(truth.iter().map(|ring| ring.as_ref().len()).sum()),
-        );
         let covered = filled(found, self.size);
-        let (f, distance) = match nothing {
+        // what lies outside of the picture is nothing in it
+        let none = |mask: &Array2<bool>| mask.iter().all(|inside| !inside);
+        let (f, distance) = match (none(&covered), none(mask)) {
             (true, true) => (1.0, None),
             (true, false) | (false, true) => (0.0, None),
             (false, false) => {

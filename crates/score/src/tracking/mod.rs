@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | one object: overlap, boundary and distance a frame, and their means | [`Following`] |
 //! | many objects as images of labels: SEG, DET, TRA, IDF1, switches, divisions | [`Tracks`] |
+//! | outlines as an image of labels | [`labelled`] |
 //! | the best one-to-one match of rows and columns | [`assignment`] |
 //!
 //! ```
@@ -31,6 +32,7 @@ mod divisions;
 mod following;
 mod graph;
 mod identities;
+mod labels;
 mod overlaps;
 #[cfg(test)]
 mod tests;
@@ -40,4 +42,5 @@ pub use assignment::assignment;
 pub use davis::boundary_f;
 pub use following::{Followed, FollowedFrame, Following};
 pub use graph::GraphErrors;
+pub use labels::labelled;
 pub use tracks::{Lineage, TrackScores, Tracks};
