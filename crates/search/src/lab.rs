@@ -1,7 +1,8 @@
 //! Colors as the eye tells them apart: CIE 1976 L\*a\*b\* of sRGB, white point D65.
 
 /// L\* (0 … 100), a\* and b\* of red, green and blue from 0 to 255 (IEC 61966-2-1; CIE 15).
-pub(crate) fn lab([red, green, blue]: [f64; 3]) -> [f64; 3] {
+#[must_use]
+pub fn lab([red, green, blue]: [f64; 3]) -> [f64; 3] {
     let [r, g, b] = [red, green, blue].map(linear);
     // to X, Y and Z as shares of those of white
     let x = (0.412_456_4 * r + 0.357_576_1 * g + 0.180_437_5 * b) / 0.950_47;

@@ -44,5 +44,6 @@ mod within;
 pub use click::find_around;
 pub use evidence::{SLOPE, Support};
 pub use find::{Found, Search, Searched, find};
+pub use lab::lab;
 pub use rules::{Rules, Sign};
 pub use view::Seen;

@@ -1,0 +1,156 @@
+//! Where an object may be in the next frame: flown on, left where it was, or carried by the flow of the picture.
+
+use flow::{Pyramid, Rules, Similarity, carry, similarity};
+use glam::DVec2;
+
+use crate::ring;
+use crate::window::{to_cells, to_pixels};
+
+/// Interior points that are followed: their distance in radii, at least so many cells, and the most of them.
+const GRID: f64 = 1.0 / 6.0;
+const LEAST_GRID: f64 = 2.0;
+
+/// How far inside its nodes the object is followed. Cells.
+const INSIDE: f64 = 2.0;
+
+/// The most nodes that are followed.
+const NODES: usize = 80;
+
+/// The most a node may move otherwise than the object, in radii; σ of the smoothing in nodes of all.
+const STRAY: f64 = 0.3;
+const SMOOTH: f64 = 1.0 / 32.0;
+
+/// Which prediction a curve comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Prediction {
+    /// Its own motion goes on.
+    Flown,
+    /// Where it was.
+    Still,
+    /// By one translation, rotation and scale that the picture's flow shows.
+    Carried,
+    /// By that, and each node by what flow is left beside it.
+    Bent,
+    /// Found by its appearance, elsewhere.
+    Searched,
+    /// Carried from frame to frame by flow alone, never corrected.
+    Plain,
+}
+
+/// How the motion of the object goes on: in the frame of the body, `z ↦ center + shift + turn · (z − center)`, and slow
+/// waves of deformation. Cells a frame.
+#[derive(Debug, Clone)]
+pub(crate) struct Motion {
+    pub turn: DVec2,
+    pub shift: DVec2,
+    pub waves: Vec<DVec2>,
+}
+
+impl Motion {
+    pub(crate) fn still(nodes: usize) -> Self {
+        Self {
+            turn: DVec2::X,
+            shift: DVec2::ZERO,
+            waves: vec![DVec2::ZERO; nodes],
+        }
+    }
+
+    /// The curve a frame later.
+    pub(crate) fn flown(&self, curve: &[DVec2]) -> Vec<DVec2> {
+        let center = ring::middle(curve);
+        let motion = Similarity {
+            turn: self.turn,
+            shift: self.shift,
+            center,
+        };
+        curve
+            .iter()
+            .zip(&self.waves)
+            .map(|(p, wave)| motion.at(*p) + *wave)
+            .collect()
+    }
+}
+
+/// What the picture's flow says of a curve.
+#[derive(Debug, Clone)]
+pub(crate) struct Flowed {
+    pub rigid: Similarity,
+    pub carried: Vec<DVec2>,
+    pub bent: Vec<DVec2>,
+    /// Share of the points that could be followed.
+    pub share: f64,
+}
+
+/// Follow a curve and what it encloses from one frame to the next.
+pub(crate) fn flowed(from: &Pyramid, to: &Pyramid, curve: &[DVec2], block: f64) -> Option<Flowed> {
+    let n = curve.len();
+    let radius = ring::radius(curve);
+    let normals = ring::normals(curve);
+    let nodes: Vec<usize> = (0..n).step_by(n.div_ceil(NODES)).collect();
+    let mut points: Vec<DVec2> = nodes
+        .iter()
+        .map(|&i| curve[i] - INSIDE * normals[i])
+        .collect();
+    points.extend(interior(curve, (GRID * radius).max(LEAST_GRID)));
+    let places: Vec<DVec2> = points.iter().map(|p| to_pixels(*p, block)).collect();
+    let moved = carry(from, to, &places, &Rules::default());
+    let followed: Vec<usize> = (0..points.len()).filter(|&i| moved[i].is_some()).collect();
+    let ends: Vec<Option<DVec2>> = moved
+        .iter()
+        .map(|moved| moved.map(|moved| to_cells(moved.to, block)))
+        .collect();
+    let begun: Vec<DVec2> = followed.iter().map(|&i| points[i]).collect();
+    let ended: Vec<DVec2> = followed.iter().filter_map(|&i| ends[i]).collect();
+    let rigid = similarity(&begun, &ended, &vec![1.0; begun.len()])?;
+    let share = followed.len() as f64 / points.len().max(1) as f64;
+    let carried: Vec<DVec2> = curve.iter().map(|p| rigid.at(*p)).collect();
+    // what is left beside the nodes, smoothed along the curve where it is known
+    let mut left = vec![DVec2::ZERO; n];
+    let mut known = vec![0.0; n];
+    for (k, &i) in nodes.iter().enumerate() {
+        if let Some(end) = ends[k] {
+            left[i] = (end - rigid.at(points[k])).clamp_length_max(STRAY * radius);
+            known[i] = 1.0;
+        }
+    }
+    let sigma = (SMOOTH * n as f64).max(1.0);
+    let sums = search::along::smoothed(&left, sigma, true);
+    let weights = ring::along(&known, sigma);
+    let bent = carried.iter().zip(sums.iter().zip(&weights));
+    let bent = bent
+        .map(|(p, (sum, weight))| *p + *sum / weight.max(0.02))
+        .collect();
+    Some(Flowed {
+        rigid,
+        carried,
+        bent,
+        share,
+    })
+}
+
+/// Points of a square lattice that lie well inside a curve.
+fn interior(curve: &[DVec2], step: f64) -> Vec<DVec2> {
+    let low = curve.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+    let high = curve.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+    let mut points = Vec::new();
+    let mut y = low.y + 0.5 * step;
+    while y < high.y {
+        let mut crossings: Vec<f64> = Vec::new();
+        for i in 0..curve.len() {
+            let (a, b) = (curve[i], curve[(i + 1) % curve.len()]);
+            if (a.y <= y) != (b.y <= y) {
+                crossings.push(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
+            }
+        }
+        crossings.sort_by(f64::total_cmp);
+        for pair in crossings.chunks_exact(2) {
+            let mut x = pair[0] + 0.5 * step;
+            while x < pair[1] - 0.25 * step {
+                points.push(DVec2::new(x, y));
+                x += step;
+            }
+        }
+        y += step;
+    }
+    points
+}
