@@ -135,7 +135,11 @@ enum Place {
     /// To standard output.
     Standard(std::io::Stdout),
     /// To a file beside the one that it will be, of which this is known.
-    Beside(tempfile::NamedTempFile, PathBuf, Option<std::fs::Metadata>),
+    Beside(
+        tempfile::NamedTempFile,
+        PathBuf,
+        Option<Box<std::fs::Metadata>>,
+    ),
 }
 
 impl Whole {
@@ -155,7 +159,11 @@ impl Whole {
         } else {
             let target = followed(path).map_err(refuse)?;
             let before = replaced(&target).map_err(refuse)?;
-            Place::Beside(beside(&target).map_err(refuse)?, target, before)
+            Place::Beside(
+                beside(&target).map_err(refuse)?,
+                target,
+                before.map(Box::new),
+            )
         };
         Ok(Self {
             path: path.to_owned(),

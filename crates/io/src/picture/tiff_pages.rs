@@ -49,6 +49,9 @@ impl Picture {
     }
 }
 
+/// The first page of a channel and the step from one to the next, where pages are channels.
+pub(crate) type Own = Option<(usize, usize)>;
+
 /// Which pages are those of a channel, as the first and the step from one to the next where pages are channels; and
 /// how large a pixel is.
 ///
@@ -58,7 +61,7 @@ impl Picture {
 pub(crate) fn pages_of_channel<R: std::io::BufRead + std::io::Seek>(
     decoder: &mut Decoder<R>,
     channel: Option<&str>,
-) -> Result<(Option<(usize, usize)>, Option<PixelSize>), String> {
+) -> Result<(Own, Option<PixelSize>), String> {
     let said = tiff_size::said(decoder);
     let (slices, moments) = said.stack;
     if slices > 1 && moments > 1 {

@@ -29,7 +29,7 @@ pub(super) struct Table {
 #[derive(Debug)]
 enum Place {
     /// To standard output, a pipe or a device.
-    Stream(Whole),
+    Stream(Box<Whole>),
     /// Into a file that has its name at the end.
     Part(File, PathBuf),
 }
@@ -52,7 +52,7 @@ impl Table {
     fn opened(path: &Path, again: bool) -> Result<Self, IoError> {
         let (path, refuse) = (path.to_owned(), |error| unwritable(path, error));
         if is_standard(&path) || is_stream(&path) {
-            let place = Place::Stream(Whole::begin(&path)?);
+            let place = Place::Stream(Box::new(Whole::begin(&path)?));
             return Ok(Self { path, place });
         }
         crate::ready_file(&path)?;

@@ -44,9 +44,9 @@ pub struct TrackWriter {
 enum Kind {
     Table(Table),
     Features(Features),
-    Video(Video),
+    Video(Box<Video>),
     Folder(Folder),
-    Rois(Rois),
+    Rois(Box<Rois>),
     Boxes(Boxes),
 }
 
@@ -77,9 +77,9 @@ impl TrackWriter {
         let kind = match format {
             TrackFormat::Csv => Kind::Table(Table::begin(path)?),
             TrackFormat::GeoJson => Kind::Features(Features::begin(path, context)?),
-            TrackFormat::Coco => Kind::Video(Video::begin(path, context)?),
+            TrackFormat::Coco => Kind::Video(Box::new(Video::begin(path, context)?)),
             TrackFormat::Ctc => Kind::Folder(Folder::begin(path, context)?),
-            TrackFormat::ImageJ => Kind::Rois(Rois::begin(path)?),
+            TrackFormat::ImageJ => Kind::Rois(Box::new(Rois::begin(path)?)),
             TrackFormat::Mot => Kind::Boxes(Boxes::begin(path)?),
         };
         Ok(Self {
