@@ -80,8 +80,8 @@ pub(crate) struct Eval {
     /// one sheet of all, another is a folder with a file for each.
     #[arg(long, value_name = "PNG|DIR")]
     pub sheet: Option<PathBuf>,
-    /// Of sequences, score what this holds instead of following the objects: a CSV of frame,id,x,y, or a folder of
-    /// mask000.tif and res_track.txt; of several sequences a folder that holds NAME.csv or NAME_RES for each.
+    /// Of sequences, score what this holds instead of following the objects: a CSV of frame,id,x,y, or a folder as the
+    /// Cell Tracking Challenge has results; of several sequences a folder that holds `NAME.csv` or `NAME_RES` for each.
     #[arg(long, value_name = "CSV|DIR")]
     pub found: Option<PathBuf>,
     /// Of sequences, take the starts exactly as they are.

@@ -18,8 +18,7 @@ use crate::commands::key;
 /// What was found in a frame.
 #[derive(Debug, Default)]
 pub(super) struct FoundFrame {
-    /// Objects and their outlines.
-    pub(super) outlines: Vec<(u32, Vec<DVec2>)>,
+    pub(super) outlines: Outlines,
     /// Their labels, where they were given as such.
     pub(super) labels: Option<Array2<u32>>,
     /// Whether all were said to be seen.
@@ -65,6 +64,9 @@ impl Given {
     }
 }
 
+/// Objects and their outlines.
+type Outlines = Vec<(u32, Vec<DVec2>)>;
+
 /// What follows the objects.
 pub(super) enum Follower {
     /// The tracker, or why it refused.
@@ -76,7 +78,7 @@ pub(super) enum Follower {
     /// A table of outlines, and the frame it has come to.
     Table {
         rows: Box<TableFrames>,
-        waiting: Option<(usize, Vec<(u32, Vec<DVec2>)>)>,
+        waiting: Option<(usize, Outlines)>,
         lives: Lives,
     },
     /// A folder of labels.
@@ -182,6 +184,20 @@ impl Follower {
         }
     }
 
+    /// Refuse frames of a table that the sequence does not have.
+    pub(super) fn check_end(&self, frames: usize) -> Result<(), String> {
+        match self {
+            Self::Table {
+                waiting: Some((frame, _)),
+                ..
+            } => Err(format!(
+                "what was found has a frame {frame}, but frames must be 0 to {}, one after the other",
+                frames.saturating_sub(1)
+            )),
+            _ => Ok(()),
+        }
+    }
+
     /// A frame as labels.
     pub(super) fn labels(
         &mut self,
@@ -210,8 +226,7 @@ impl Follower {
 }
 
 /// The outlines of the next frame of a table that has any.
-#[allow(clippy::type_complexity, reason = "a frame and its outlines")]
-fn next(rows: &mut TableFrames) -> Result<Option<(usize, Vec<(u32, Vec<DVec2>)>)>, String> {
+fn next(rows: &mut TableFrames) -> Result<Option<(usize, Outlines)>, String> {
     let frame = rows.next().transpose().map_err(|error| error.to_string())?;
     Ok(frame.map(|(t, all)| (t, all.into_iter().map(|one| (one.id, one.points)).collect())))
 }

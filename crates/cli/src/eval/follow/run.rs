@@ -131,6 +131,7 @@ fn one(
             }
         }
     }
+    follower.check_end(frames)?;
     let score = if let Some(following) = following {
         let means = following.finish();
         let means = means.ok_or_else(|| "a second frame is needed".to_owned())?;
