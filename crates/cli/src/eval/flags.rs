@@ -22,7 +22,8 @@ A manifest with the columns sequence and frame is of sequences: one object is fo
 `near` and `true` (the true outline of the first frame) if no quality is given. A row a sequence and start: number of \
 frames after the first; mean IoU, that of the last frame and the least; mean boundary F at 2 pixels; J&F as the DAVIS \
 challenge takes it; mean distance, pixels; the share of frames with an IoU below 0.3, and of those that are and were \
-said to be sure; CPU milliseconds a frame. Folders as 01 and 01_GT/TRA are sequences of many objects as the Cell \
+said to be sure; CPU milliseconds a frame; of drawn ones, events told within a frame (returns: two) of all there are, \
+and those told where there is none. Folders as 01 and 01_GT/TRA are sequences of many objects as the Cell \
 Tracking Challenge has them: SEG, DET, TRA, IDF1, switches of identity, F1 of divisions within a frame.\n\n\
 Exit code 0: all was scored. 1: what was broken is reported and left out, or Ctrl-C stopped it. 2: refused, and why.";
 
@@ -40,7 +41,8 @@ pub(crate) enum SeedKind {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Eval {
-    /// The folder of the data set; or `synthetic` or `sequences`, drawn pictures and sequences whose truth is a formula.
+    /// The folder of the data set; or `synthetic` or `sequences`, drawn pictures and sequences whose truth is a
+    /// formula.
     #[arg(value_name = "DIR")]
     pub set: PathBuf,
     /// A file of starts, in DIR or by its path; may be given again. inits.csv if not given.

@@ -11,8 +11,8 @@ const NEAR: f64 = 0.008;
 /// The boundary F of two masks as the DAVIS challenge takes it `[perazzi16]`.
 ///
 /// A pixel is on a boundary if its right, lower or lower right neighbor is on the other side. What lies within 0.008 of
-/// the diagonal, rounded up to whole pixels, of the other boundary is near (the toolkit's disc in place of a match of one
-/// to one `[martin04]`). 1 if neither mask has a boundary, 0 if one has none.
+/// the diagonal, rounded up to whole pixels, of the other boundary is near (the toolkit's disc in place of a match of
+/// one to one `[martin04]`). 1 if neither mask has a boundary, 0 if one has none.
 ///
 /// # Errors
 ///

@@ -5,8 +5,8 @@ use ndarray::Array2;
 
 use crate::{Measures, filled};
 
-/// Each object's pixels with its number, 0 elsewhere. A pixel of two objects belongs to the one with the nearer centroid;
-/// of two as near, to the first. An outline without area has none.
+/// Each object's pixels with its number, 0 elsewhere. A pixel of two objects belongs to the one with the nearer
+/// centroid; of two as near, to the first. An outline without area has none.
 ///
 /// ```
 /// use glam::DVec2;

@@ -37,6 +37,8 @@ mod overlaps;
 #[cfg(test)]
 mod tests;
 mod tracks;
+#[cfg(test)]
+mod twins;
 
 pub use assignment::assignment;
 pub use davis::boundary_f;

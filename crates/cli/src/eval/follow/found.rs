@@ -8,8 +8,9 @@ use io::tracks::{CtcFolder, TableFrames};
 use ndarray::Array2;
 use scene::SceneError;
 use scene::fit::{Contour, Image};
+use score::sequences::Event;
 use score::tracking::{Lineage, labelled};
-use track::{Options, State, Tracker};
+use track::{Happening, Options, State, Tracker};
 
 use super::clips::Clip;
 use super::source::{Lives, labels, lines};
@@ -74,6 +75,7 @@ pub(super) enum Follower {
         tracker: Result<Box<Tracker>, String>,
         parents: BTreeMap<u32, u32>,
         lives: Lives,
+        events: Vec<(usize, Event)>,
     },
     /// A table of outlines, and the frame it has come to.
     Table {
@@ -94,6 +96,15 @@ impl Follower {
             tracker: tracker.map(Box::new).map_err(|error| error.to_string()),
             parents: BTreeMap::new(),
             lives: Lives::default(),
+            events: Vec::new(),
+        }
+    }
+
+    /// What it said that happened.
+    pub(super) fn events(&self) -> &[(usize, Event)] {
+        match self {
+            Self::Tracker { events, .. } => events,
+            _ => &[],
         }
     }
 
@@ -134,7 +145,10 @@ impl Follower {
     pub(super) fn frame(&mut self, t: usize, image: Option<&Image>) -> Result<FoundFrame, String> {
         match self {
             Self::Tracker {
-                tracker, parents, ..
+                tracker,
+                parents,
+                events,
+                ..
             } => {
                 let Ok(running) = tracker else {
                     return Ok(FoundFrame::default());
@@ -155,6 +169,8 @@ impl Follower {
                 for one in &tracked.outlines {
                     parents.extend(one.parent.map(|parent| (one.id, parent)));
                 }
+                let told = |event: &track::Event| Some((t, happened(&event.what)?));
+                events.extend(tracked.events.iter().filter_map(told));
                 let outlines = tracked.outlines.into_iter().map(|one| (one.id, one.points));
                 Ok(FoundFrame {
                     outlines: outlines.collect(),
@@ -222,6 +238,19 @@ impl Follower {
             Self::Table { lives, .. } => lives.lineages(|_| None),
             Self::Labels(folder) => lines(folder),
         }
+    }
+}
+
+/// What the tracker says, in the words of the truth; None of what truth does not speak of.
+const fn happened(what: &Happening) -> Option<Event> {
+    match what {
+        Happening::Hidden => Some(Event::Vanished),
+        Happening::Found => Some(Event::Returned),
+        Happening::Left => Some(Event::Left),
+        Happening::Lost => Some(Event::Lost),
+        Happening::Divided(_) => Some(Event::Divided),
+        Happening::Born => Some(Event::Born),
+        _ => None,
     }
 }
 

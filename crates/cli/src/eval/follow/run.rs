@@ -1,5 +1,6 @@
 //! A sequence followed and scored.
 
+use score::sequences::Event;
 use score::tracking::{FollowedFrame, Following, TrackScores, Tracks};
 use track::Options;
 
@@ -17,6 +18,8 @@ pub(super) struct Followed {
     pub(super) score: Score,
     /// Why it was refused or given up, if it was: from there on nothing was found.
     pub(super) refused: Option<String>,
+    /// Events told rightly, told where there is none, and missed, where the truth of them is known.
+    pub(super) events: Option<[usize; 3]>,
     /// CPU time a frame; None of what was given. Seconds.
     pub(super) seconds: Option<f64>,
 }
@@ -148,7 +151,46 @@ fn one(
         sequence: clip.name.clone(),
         start: String::new(),
         score,
+        events: clip
+            .source
+            .events()
+            .filter(|_| follower.looks())
+            .map(|truth| events(follower.events(), &truth)),
         refused: follower.refused().map(str::to_owned),
         seconds: Some(seconds / frames as f64),
     }))
+}
+
+/// Events told rightly, told where there is none, and missed: each true one is told by one of its kind within a frame,
+/// or within two if it is a return.
+fn events(told: &[(usize, Event)], truth: &[(usize, Event)]) -> [usize; 3] {
+    let mut left = told.to_vec();
+    let mut right = 0;
+    for (frame, what) in truth {
+        let late = if *what == Event::Returned { 2 } else { 1 };
+        let same = |one: &(usize, Event)| one.1 == *what && one.0.abs_diff(*frame) <= late;
+        if let Some(at) = left.iter().position(same) {
+            left.remove(at);
+            right += 1;
+        }
+    }
+    [right, left.len(), truth.len() - right]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_event_counts_once_and_only_when_it_happens() {
+        let truth = [(15, Event::Vanished), (20, Event::Returned)];
+        let told = [
+            (16, Event::Vanished),
+            (18, Event::Returned),
+            (22, Event::Returned),
+        ];
+        assert_eq!(events(&told, &truth), [2, 1, 0]);
+        assert_eq!(events(&[(17, Event::Vanished)], &truth), [0, 1, 2]);
+        assert_eq!(events(&[], &[]), [0, 0, 0]);
+    }
 }

@@ -166,6 +166,19 @@ impl Source {
         }
     }
 
+    /// What happens by truth, where that is known: the frame, and what. A child's birth is part of its division.
+    pub(super) fn events(&self) -> Option<Vec<(usize, Event)>> {
+        let Self::Drawn(sequence) = self else {
+            return None;
+        };
+        let child = |id: u32| sequence.parents.iter().any(|pair| pair.0 == id);
+        let counts = |&&(_, id, event): &&(usize, u32, Event)| {
+            event != Event::Kicked && !(event == Event::Born && child(id))
+        };
+        let events = sequence.events.iter().filter(counts);
+        Some(events.map(|event| (event.0, event.2)).collect())
+    }
+
     /// The lives of the true objects, where there are many.
     pub(super) fn lineages(&self) -> Vec<Lineage> {
         match self {

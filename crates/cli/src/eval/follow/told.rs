@@ -65,6 +65,14 @@ impl Followed {
         }
     }
 
+    /// Events told rightly of all there are, and those told where there is none; a dash if nothing is known.
+    fn events(&self) -> String {
+        match self.events {
+            None => "-".to_owned(),
+            Some([right, wrong, missed]) => format!("{right}/{}+{wrong}", right + missed),
+        }
+    }
+
     const fn frames(&self) -> usize {
         match &self.score {
             Score::One(means, _) => means.frames,
@@ -106,17 +114,27 @@ fn table(text: &mut String, rows: &[&Followed], columns: &[(&str, usize, usize)]
     for (name, width, _) in columns {
         let _ = write!(text, " {name:>width$}");
     }
-    text.push('\n');
-    let mut line = |name: &str, start: &str, count: usize, numbers: &[f64]| {
+    text.push_str("  events\n");
+    let mut line = |name: &str, start: &str, count: usize, numbers: &[f64], events: &str| {
         let _ = write!(text, "{name:wide$} {start:6} {count:>4}");
         for (number, (_, width, decimals)) in numbers.iter().zip(columns) {
             let _ = write!(text, " {:>width$}", shown(*number, *decimals));
+        }
+        if !events.is_empty() {
+            let _ = write!(text, " {events:>7}");
         }
         text.push('\n');
     };
     let mut starts: Vec<&str> = Vec::new();
     for row in rows {
-        line(&row.sequence, &row.start, row.frames(), &row.numbers());
+        let events = row.events();
+        line(
+            &row.sequence,
+            &row.start,
+            row.frames(),
+            &row.numbers(),
+            &events,
+        );
         if !starts.contains(&row.start.as_str()) {
             starts.push(&row.start);
         }
@@ -129,7 +147,7 @@ fn table(text: &mut String, rows: &[&Followed], columns: &[(&str, usize, usize)]
             .collect();
         let column = |k: usize| mean(own.iter().map(|row| row[k]).filter(|v| v.is_finite()));
         let means: Vec<f64> = (0..columns.len()).map(column).collect();
-        line("all", start, own.len(), &means);
+        line("all", start, own.len(), &means, "");
     }
 }
 
@@ -143,6 +161,9 @@ pub(super) fn json(rows: &[Followed]) -> Vec<Value> {
         value["sequence"] = json!(row.sequence);
         value["start"] = json!(row.start);
         value["frames"] = json!(row.frames());
+        value["events"] = json!(row.events.map(|[right, wrong, missed]| {
+            json!({ "right": right, "wrong": wrong, "missed": missed })
+        }));
         value["refused"] = json!(row.refused);
         value["cpu_ms"] = json!(row.milliseconds());
         value
