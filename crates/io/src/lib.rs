@@ -17,6 +17,8 @@
 mod animation;
 mod claims;
 mod error;
+mod ffmpeg;
+pub mod frames;
 pub mod limits;
 pub mod numbers;
 pub mod page;
@@ -26,6 +28,7 @@ mod read;
 pub mod record;
 pub mod shapes;
 pub mod text;
+pub mod tracks;
 mod write;
 
 pub use claims::{Claims, is_standard};

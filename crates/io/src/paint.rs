@@ -12,6 +12,21 @@ use crate::picture::as_u32;
 use crate::write::write_whole;
 use crate::{IoError, Picture};
 
+/// Colors of objects, told apart by every eye (Okabe and Ito, <https://jfly.uni-koeln.de/color/>).
+pub const OBJECTS: [[u8; 3]; 5] = [
+    [230, 159, 0],
+    [86, 180, 233],
+    [0, 158, 115],
+    [240, 228, 66],
+    [204, 121, 167],
+];
+
+/// The color of an object by its number, from 1.
+#[must_use]
+pub const fn color_of(id: u32) -> [u8; 3] {
+    OBJECTS[(id.wrapping_sub(1) as usize) % OBJECTS.len()]
+}
+
 /// A grey level as a byte: rounded, clamped to 0 … 255.
 #[allow(
     clippy::cast_possible_truncation,

@@ -52,7 +52,7 @@ fn is_descriptor(path: &Path) -> bool {
     false
 }
 
-fn unwritable(path: &Path, error: impl std::fmt::Display) -> IoError {
+pub(crate) fn unwritable(path: &Path, error: impl std::fmt::Display) -> IoError {
     IoError::file(
         path,
         format!("cannot be written: {error}; another file is needed"),
@@ -115,30 +115,113 @@ pub(crate) fn write_by(
     path: &Path,
     write: &mut dyn FnMut(&mut dyn Write) -> std::io::Result<()>,
 ) -> Result<(), IoError> {
-    let refuse = |error: std::io::Error| unwritable(path, error);
-    if is_stream(path) {
-        // what is a file behind a descriptor grows, as by any other output there
-        let mut stream = std::fs::OpenOptions::new()
-            .append(true)
-            .open(path)
-            .map_err(refuse)?;
-        return write(&mut stream).map_err(refuse);
+    let mut whole = Whole::begin(path)?;
+    write(&mut whole).map_err(|error| unwritable(path, error))?;
+    whole.end()
+}
+
+/// A file that is written piece by piece and has its name when it is whole; dropped before, it leaves nothing.
+#[derive(Debug)]
+pub(crate) struct Whole {
+    path: PathBuf,
+    place: Place,
+}
+
+/// Where the pieces go.
+#[derive(Debug)]
+enum Place {
+    /// To a device, a pipe or a descriptor, as they come.
+    Stream(std::fs::File),
+    /// To standard output.
+    Standard(std::io::Stdout),
+    /// To a file beside the one that it will be, of which this is known.
+    Beside(
+        tempfile::NamedTempFile,
+        PathBuf,
+        Option<Box<std::fs::Metadata>>,
+    ),
+}
+
+impl Whole {
+    /// Begin a file.
+    ///
+    /// # Errors
+    ///
+    /// As [`write_whole`].
+    pub(crate) fn begin(path: &Path) -> Result<Self, IoError> {
+        let refuse = |error: std::io::Error| unwritable(path, error);
+        let place = if path.as_os_str() == "-" {
+            Place::Standard(std::io::stdout())
+        } else if is_stream(path) {
+            // what is a file behind a descriptor grows, as by any other output there
+            let stream = std::fs::OpenOptions::new().append(true).open(path);
+            Place::Stream(stream.map_err(refuse)?)
+        } else {
+            let target = followed(path).map_err(refuse)?;
+            let before = replaced(&target).map_err(refuse)?;
+            Place::Beside(
+                beside(&target).map_err(refuse)?,
+                target,
+                before.map(Box::new),
+            )
+        };
+        Ok(Self {
+            path: path.to_owned(),
+            place,
+        })
     }
-    let target = followed(path).map_err(refuse)?;
-    let before = replaced(&target).map_err(refuse)?;
-    let mut beside = beside(&target).map_err(refuse)?;
-    write(&mut beside).map_err(refuse)?;
-    if let Some(before) = before {
-        keep_owner(beside.as_file(), &before);
-        beside
-            .as_file()
-            .set_permissions(before.permissions())
-            .map_err(refuse)?;
+
+    /// The file that is written to until the end, if there is one.
+    pub(crate) const fn file(&mut self) -> Option<&mut tempfile::NamedTempFile> {
+        match &mut self.place {
+            Place::Beside(beside, ..) => Some(beside),
+            _ => None,
+        }
     }
-    beside
-        .persist(&target)
-        .map_err(|error| refuse(error.error))?;
-    Ok(())
+
+    /// Give the file its name.
+    ///
+    /// # Errors
+    ///
+    /// As [`write_whole`].
+    pub(crate) fn end(self) -> Result<(), IoError> {
+        let refuse = |error: std::io::Error| unwritable(&self.path, error);
+        match self.place {
+            Place::Stream(mut stream) => stream.flush().map_err(refuse),
+            Place::Standard(mut out) => out.flush().map_err(refuse),
+            Place::Beside(beside, target, before) => {
+                if let Some(before) = before {
+                    keep_owner(beside.as_file(), &before);
+                    beside
+                        .as_file()
+                        .set_permissions(before.permissions())
+                        .map_err(refuse)?;
+                }
+                beside
+                    .persist(&target)
+                    .map_err(|error| refuse(error.error))?;
+                Ok(())
+            }
+        }
+    }
+}
+
+impl Write for Whole {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        match &mut self.place {
+            Place::Stream(stream) => stream.write(bytes),
+            Place::Standard(out) => out.write(bytes),
+            Place::Beside(beside, ..) => beside.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        match &mut self.place {
+            Place::Stream(stream) => stream.flush(),
+            Place::Standard(out) => out.flush(),
+            Place::Beside(beside, ..) => beside.flush(),
+        }
+    }
 }
 
 /// Give a file the owner and the group of the one it replaces, where that is allowed.

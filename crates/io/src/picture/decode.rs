@@ -250,6 +250,33 @@ fn tiff<R: BufRead + Seek>(
     Ok(picture)
 }
 
+/// A picture from a TIFF of so many bytes.
+pub(crate) fn decode_tiff<R: BufRead + Seek>(
+    reader: &mut R,
+    length: u64,
+    rule: &PictureReading,
+) -> Result<Picture, String> {
+    tiff(reader, length, MOST_PIXELS, rule)
+}
+
+/// The next of the pictures that stand one behind the other in a stream of PGM or PPM; None where it has ended.
+pub(crate) fn decode_next(
+    input: &mut dyn BufRead,
+    rule: &PictureReading,
+) -> Result<Option<Picture>, String> {
+    let there = |e: std::io::Error| format!("cannot be read: {e}");
+    let begin = input.fill_buf().map_err(there)?;
+    match begin {
+        [] => return Ok(None),
+        [b'P', ..] => {}
+        _ => return Err(format!("the stream has no picture here; {STREAMED}")),
+    }
+    in_order(Known::Pnm, input, None, MOST_PIXELS, rule).map(Some)
+}
+
+/// What to say of another stream.
+const STREAMED: &str = "PGM or PPM pictures one behind the other are needed";
+
 /// What to say of a picture that is stored otherwise than it is looked at.
 fn note(turned: Orientation) -> Option<String> {
     (turned != Orientation::NoTransforms).then(|| {
@@ -308,7 +335,7 @@ fn grid(mut levels: Grid, rule: &PictureReading) -> Result<(Grid, Option<Array2<
 }
 
 /// What to say of a file that cannot be decoded.
-pub(super) fn broken(error: impl std::fmt::Display) -> String {
+pub(crate) fn broken(error: impl std::fmt::Display) -> String {
     let error = clip_to(&error.to_string(), 160);
     if error.contains("unexpected end of file") || error.contains("failed to fill whole buffer") {
         return cut();

@@ -19,6 +19,7 @@ mod pixel_size;
 mod pixels;
 mod png;
 mod pnm;
+mod recolor;
 mod source;
 mod tiff_bands;
 mod tiff_file;
@@ -38,8 +39,10 @@ use pixels::Pixels;
 use crate::IoError;
 use crate::limits::MOST_PIXELS;
 
+pub(crate) use decode::{broken, decode_next, decode_tiff};
 pub(crate) use numbers::{Numbers, numbers_of};
 pub use pixel_size::PixelSize;
+pub(crate) use tiff_pages::pages_of_channel;
 
 /// A picture: grey levels to compute with, and colours to look at.
 ///

@@ -7,7 +7,7 @@ use std::path::Path;
 use tiff::decoder::Decoder;
 
 use super::decode::broken;
-use super::{Picture, tiff_size};
+use super::{Picture, PixelSize, tiff_size};
 use crate::IoError;
 
 /// Pages that are counted at most; those of longer stacks are read one by one.
@@ -47,6 +47,39 @@ impl Picture {
             None => pages,
         })
     }
+}
+
+/// The first page of a channel and the step from one to the next, where pages are channels.
+pub(crate) type Own = Option<(usize, usize)>;
+
+/// Which pages are those of a channel, as the first and the step from one to the next where pages are channels; and
+/// how large a pixel is.
+///
+/// # Errors
+///
+/// Pages of several channels of which none is chosen, or of several slices at several moments.
+pub(crate) fn pages_of_channel<R: std::io::BufRead + std::io::Seek>(
+    decoder: &mut Decoder<R>,
+    channel: Option<&str>,
+) -> Result<(Own, Option<PixelSize>), String> {
+    let said = tiff_size::said(decoder);
+    let (slices, moments) = said.stack;
+    if slices > 1 && moments > 1 {
+        return Err(format!(
+            "holds {slices} slices at each of {moments} moments; needed: a file of one slice at each"
+        ));
+    }
+    let of = match (said.channels.len(), channel) {
+        (0, _) => None,
+        (count, None) => {
+            return Err(format!(
+                "holds pages of {count} channels, {}; the name or the number of one is needed",
+                crate::text::clip(&said.channels.join(", "))
+            ));
+        }
+        (count, Some(wanted)) => Some((super::tiff_file::channel(wanted, &said.channels)?, count)),
+    };
+    Ok((of, said.pixel_size))
 }
 
 fn is_tiff(file: &mut BufReader<File>) -> std::io::Result<bool> {

@@ -15,6 +15,8 @@ pub(super) struct Said {
     pub pixel_size: Option<PixelSize>,
     /// Names of channels that are pages, which come one after another; none if there is but one.
     pub channels: Vec<String>,
+    /// How many slices there are at each moment, and how many moments.
+    pub stack: (usize, usize),
 }
 
 /// Channels that are believed.
@@ -59,6 +61,12 @@ pub(super) fn said<R: BufRead + Seek>(decoder: &mut Decoder<R>) -> Said {
         if (2..=MOST_CHANNELS).contains(&count) {
             said.channels = (1..=count).map(|number| number.to_string()).collect();
         }
+        let many = |name: &str| {
+            value(name)
+                .and_then(|count| count.parse().ok())
+                .unwrap_or(1)
+        };
+        said.stack = (many("slices"), many("frames"));
     }
     let mut each = |tag: Tag| 1.0 / ratio(decoder.find_tag(tag).ok().flatten());
     let (x, y) = (each(Tag::XResolution), each(Tag::YResolution));
@@ -99,6 +107,8 @@ fn ome(description: &str) -> Option<Said> {
     };
     let samples =
         |node: &roxmltree::Node<'_, '_>| node.attribute("SamplesPerPixel").unwrap_or("1") == "1";
+    let many = |name: &str| pixels.attribute(name).and_then(|count| count.parse().ok());
+    let stack = (many("SizeZ").unwrap_or(1), many("SizeT").unwrap_or(1));
     let pages = order.starts_with("XYC") && channels.clone().all(|node| samples(&node));
     let names: Vec<String> = (1..).zip(channels).map(one).take(MOST_CHANNELS).collect();
     Some(Said {
@@ -108,5 +118,6 @@ fn ome(description: &str) -> Option<Said> {
         } else {
             Vec::new()
         },
+        stack,
     })
 }

@@ -7,7 +7,7 @@ use crate::limits::{FARTHEST, MOST_NODES, MOST_POINTS, MOST_SHAPES, MOST_TRACED}
 
 /// What a reader has taken of what it may.
 #[derive(Debug, Default)]
-pub(super) struct Budget {
+pub(crate) struct Budget {
     points: usize,
     shapes: usize,
     pixels: u64,

@@ -246,7 +246,7 @@ pub(super) fn write(shapes: &[Shape], context: &Context) -> Result<Vec<u8>, IoEr
     Ok(text)
 }
 
-fn feature(number: usize, shape: &Shape) -> Result<Out, IoError> {
+pub(crate) fn feature(number: usize, shape: &Shape) -> Result<Out, IoError> {
     let mut properties = table_of(&shape.properties);
     if let Some(label) = &shape.label {
         let class = properties

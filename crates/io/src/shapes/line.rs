@@ -2,14 +2,14 @@
 
 /// What stands between the entries of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Separator {
+pub(crate) enum Separator {
     Letter(char),
     Space,
 }
 
 impl Separator {
     /// Of a line: a tab, a semicolon or a comma that is not in quotes, or else space.
-    pub(super) fn of(line: &str) -> Self {
+    pub(crate) fn of(line: &str) -> Self {
         let line = line.trim();
         let mut found = [false; 3];
         let mut quoted = false;
@@ -24,7 +24,7 @@ impl Separator {
     }
 
     /// The number that an entry is; with a decimal comma, perhaps, where commas do not separate.
-    pub(super) fn number(self, entry: &str) -> Option<f64> {
+    pub(crate) fn number(self, entry: &str) -> Option<f64> {
         if let Ok(number) = entry.parse() {
             return Some(number);
         }
@@ -41,7 +41,7 @@ impl Separator {
     }
 
     /// The entries of a line, without the space and the quotes around them; nothing is kept.
-    pub(super) fn split(self, line: &str) -> impl Iterator<Item = &str> {
+    pub(crate) fn split(self, line: &str) -> impl Iterator<Item = &str> {
         let mut rest = Some(match self {
             Self::Letter('\t') => line.trim_end_matches(['\r', '\n']),
             _ => line.trim(),

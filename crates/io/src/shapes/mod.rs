@@ -68,6 +68,14 @@ use crate::limits::{MOST_CONTOUR_BYTES, MOST_STREAM};
 use crate::read::{called, read_bytes};
 use crate::write::write_whole;
 
+pub(crate) use budget::Budget;
+pub(crate) use geojson::feature;
+pub(crate) use imagej::roi;
+pub(crate) use line::Separator;
+pub(crate) use raster::{boxed, labels};
+pub(crate) use runs::of_columns;
+pub(crate) use trace::Labels;
+
 pub use format::{Column, Context, Format, Origin, Reading};
 
 /// The outlines of a file.

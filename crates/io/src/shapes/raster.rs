@@ -201,7 +201,7 @@ fn spans(shape: &Shape, width: usize, height: usize, work: &mut f64) -> Result<V
 }
 
 /// A part of a picture, and which of its pixels are in an outline, row by row.
-pub(super) struct Boxed {
+pub(crate) struct Boxed {
     pub left: usize,
     pub top: usize,
     pub width: usize,
@@ -209,7 +209,7 @@ pub(super) struct Boxed {
 }
 
 /// The smallest part of a picture that has all pixels of an outline; None if there is none.
-pub(super) fn boxed(
+pub(crate) fn boxed(
     shape: &Shape,
     [width, height]: [usize; 2],
     budget: &mut Budget,
@@ -261,7 +261,7 @@ pub(super) fn mask(shapes: &[Shape], width: usize, height: usize) -> Result<Vec<
 }
 
 /// The number of the outline of each pixel, 0 for none.
-fn labels(shapes: &[Shape], width: usize, height: usize) -> Result<Vec<u32>, IoError> {
+pub(crate) fn labels(shapes: &[Shape], width: usize, height: usize) -> Result<Vec<u32>, IoError> {
     let numbers = label_numbers(shapes);
     let mut list = vec![0_u32; width * height];
     // the outline of each pixel by its place, from 1, and the mean of the pixels of each outline

@@ -117,7 +117,7 @@ pub(super) fn count(number: f64) -> Option<usize> {
 }
 
 /// Runs of a part of a picture that is read down its columns, from its first pixel on; background first.
-pub(super) fn of_columns(part: &Boxed, [width, height]: [usize; 2]) -> Vec<usize> {
+pub(crate) fn of_columns(part: &Boxed, [width, height]: [usize; 2]) -> Vec<usize> {
     let rows = part.mask.len().checked_div(part.width).unwrap_or(0);
     // where runs of the object begin and end
     let mut spans: Vec<(usize, usize)> = Vec::new();

@@ -11,14 +11,14 @@ use super::budget::Budget;
 
 /// Numbers of pixels, row by row; 0 is the background.
 #[derive(Debug)]
-pub(super) struct Labels {
+pub(crate) struct Labels {
     pub list: Vec<u32>,
     pub width: usize,
     pub height: usize,
 }
 
 /// The rings around the pixels of each number; with y down, those around pixels turn clockwise.
-pub(super) type Rings = BTreeMap<u32, Vec<Vec<DVec2>>>;
+pub(crate) type Rings = BTreeMap<u32, Vec<Vec<DVec2>>>;
 
 /// Right, down, left, up.
 const AHEAD: [(isize, isize); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
@@ -32,7 +32,7 @@ impl Labels {
     }
 
     /// The outline of the pixels of each number.
-    pub(super) fn outlines(&self, budget: &mut Budget) -> Result<Rings, String> {
+    pub(crate) fn outlines(&self, budget: &mut Budget) -> Result<Rings, String> {
         self.rings(
             budget,
             |_, _| false,

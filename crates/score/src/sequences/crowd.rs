@@ -54,11 +54,7 @@ const BIRTHS: [(usize, f64, f64, bool); 4] = [
     (24, 100.0, 30.0, true),
 ];
 
-/// Twenty discs of radius 8 … 11 and level 160 … 220 in five columns and four rows. Each wanders at one pixel a frame
-/// in a direction that turns; the two of a pair (1 and 2, 3 and 4 …) make for each other from frame 6 to 20 and part
-/// again. Where two would overlap by more than 1.5 pixels they are pushed apart, and each ends at the line of equal
-/// power of the two. The objects 5, 12 and 16 are lost at the frames 14, 26 and 33; 15 leaves over the right border;
-/// 22 comes over the left one, 21, 23 and 24 appear and grow for five frames.
+/// The crowd, drawn as [`sequences`](super::sequences) says.
 pub(super) fn crowd() -> Sequence {
     let mut members: Vec<Member> = (0..FIRST)
         .map(|k| {

@@ -8,13 +8,7 @@ use super::single::{BRIGHT, DARK, plain};
 use super::{Event, Sequence};
 use crate::Measures;
 
-/// - `leave`: a circle of radius 18 at (209.5 + 5 (4 − |t − 19.5|), 80 + 0.8 t): over the right border, wholly outside
-///   in the frames 16 … 23, and back.
-/// - `divide`: ovals of Cassini of the area of a circle of radius 28 about (96, 96), see [`oval`]: one object until
-///   frame 19, from frame 20 on two that touch in a point and then part.
-/// - `cross`: circles of radius 12 that cross at 120 degrees, at (96, 96) + 4.3 (t − 19.5) (±cos 30°, sin 30°): they
-///   overlap in the frames 17 … 22. Both outlines are whole; both have one level, so only their motion tells which is
-///   which.
+/// What leaves, divides and crosses.
 pub(super) fn cases() -> Vec<Sequence> {
     let mut divide = Sequence::new("divide", oval).with(&[
         (20, 1, Event::Divided),

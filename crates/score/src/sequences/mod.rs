@@ -2,8 +2,8 @@
 //!
 //! Each frame is drawn as the pictures of [`synthetic`](crate::synthetic) are: by shares of 8 × 8 points of a pixel,
 //! blurred by one pixel, with noise of the seed 100 + frame (of deviation 5 unless said), rounded to 8 bits. Level 200
-//! on 60, 192 × 192 pixels and 40 frames unless said. A texture is a smooth function of the place in the object (of the
-//! place on the ground), so it moves with it.
+//! on 60, 192 × 192 pixels and 40 frames unless said. A texture is a smooth function of the place in the object (of
+//! the place on the ground), so it moves with it.
 //!
 //! ```
 //! let all = score::sequences::sequences();
@@ -109,8 +109,8 @@ impl Sequence {
     /// The true outlines of a frame, by object: what is in the picture of those that are seen.
     ///
     /// Of an object that another hides in part, the whole outline; of objects in contact, each to the line of contact;
-    /// of one across the border, the part in the picture. Polygons of some thousand nodes, within 2e-4 pixels of their
-    /// curves.
+    /// of one across the border, the part in the picture. Polygons of about a thousand nodes, within 3e-4 pixels of
+    /// their curves.
     #[must_use]
     pub fn truth(&self, t: usize) -> Vec<Outlined> {
         let [width, height] = self.size.map(|side| side as f64 - 0.5);
@@ -147,27 +147,11 @@ impl Sequence {
         self.truth(0)
     }
 
-    /// The true objects of a frame as labels, 0 outside. A pixel of two objects belongs to the one with the nearer
-    /// center.
+    /// The true objects of a frame as labels ([`labelled`](crate::tracking::labelled)).
     #[must_use]
     pub fn labels(&self, t: usize) -> Array2<u32> {
         let [width, height] = self.size;
-        let mut labels = Array2::zeros((height, width));
-        let mut near = Array2::from_elem((height, width), f64::INFINITY);
-        let centers: Vec<(u32, DVec2)> = self.objects(t).map(|b| (b.id, b.region.center)).collect();
-        for (id, ring) in self.truth(t) {
-            let center = centers.iter().find(|one| one.0 == id).map(|one| one.1);
-            let mask = crate::filled(&[ring], (height, width));
-            for ((y, x), _) in mask.indexed_iter().filter(|(_, inside)| **inside) {
-                let p = DVec2::new(x as f64, y as f64);
-                let far = center.map_or(0.0, |center| center.distance(p));
-                if far < near[[y, x]] {
-                    near[[y, x]] = far;
-                    labels[[y, x]] = id;
-                }
-            }
-        }
-        labels
+        crate::tracking::labelled(&self.truth(t), (height, width))
     }
 
     fn objects(&self, t: usize) -> impl Iterator<Item = &Body> {
@@ -177,6 +161,44 @@ impl Sequence {
 }
 
 /// All of them: the cases of one object, then those of several.
+///
+/// - `move_const`: a circle of radius 20 at (40 + 2.8 t, 96).
+/// - `move_fall`: radius 18 at (30 + 3 t, 24 + 0.09 t²).
+/// - `move_bounce`: radius 18 at (40 + 2.5 t, 24 + 0.36 u²), u = ((t + 20) mod 40) − 20: its velocity jumps at 20.
+/// - `kick`: radius 18, it falls by 4 pixels a frame from (60, 30); the steps from the frames 20 and 34 are of 26
+///   pixels, 30 degrees to the right of upwards, and what they have beyond the fall halves in every frame after. At a
+///   kick a share of 0.168 of its area is also that of the frame before. A circle of radius 13 and of the same level
+///   rests below its path at (72, 150).
+/// - `vanish`: as `move_const`, without the circle in the frames 15 … 19.
+/// - `turn`: an ellipse of half axes 50 and 20 at (96, 96), turned by 4 t degrees.
+/// - `turn_fast`: by 12 t degrees, with texture of deviation 15 on it and on the ground.
+/// - `breathe`: `r = 45 + 12 sin(0.2 t) cos 2a` about (96, 96).
+/// - `grow`: a circle of radius 12 + t at (96, 96).
+/// - `amoeba_tex`: `r = 28 + 6 cos(2a + 0.15 t) + 4 cos(3a − 0.2 t) + 2 cos(5a + 0.1 t)` about (60 + 1.8 t, 96 + 20
+///   sin(t / 8)), of level 130 on 110, texture of deviation 14 on it, carried with polar angle and share of the radius.
+/// - `amoeba_camo`: the same with texture of that deviation on the ground too.
+/// - `noise_cnr2`: the amoeba of level 104 on 96, noise 4.
+/// - `fade`: the amoeba of level 60 + 140 · 0.93ᵗ.
+/// - `occluded`: a circle of radius 18 at (32 + 3.2 t, 96) passes behind a bar of level 130 that covers the columns 79
+///   … 113.
+/// - `distractor`: radius 16 at (40 + 2.6 t, 78); an equal circle at (152 − 2.6 t, 113) passes it at 35 pixels.
+/// - `tongue`: radius 22 at (36 + 3 t, 96), along a bar of level 190 and thickness 14 that touches it from below.
+/// - `camera`: an ellipse of half axes 28 and 20 and level 160 at (66 + 1.5 t, 96), turned by 2 t degrees, on level
+///   100, with texture of deviation 15 on it and on the ground. In the frames 4 k + 2 and 4 k + 3 the whole picture is
+///   shifted by 15 pixels in a direction that changes with k by the golden angle.
+/// - `leave`: a circle of radius 18 at (209.5 + 5 (4 − |t − 19.5|), 80 + 0.8 t): over the right border, wholly
+///   outside in the frames 16 … 23, and back.
+/// - `divide`: ovals of Cassini of the area of a circle of radius 28 about (96, 96): a circle until frame 4; then the
+///   foci part along an axis at 30 degrees, evenly, so that the neck closes at frame 20. One object until frame 19,
+///   from frame 20 on two that touch in a point and then part.
+/// - `cross`: circles of radius 12 that cross at 120 degrees, at (96, 96) + 4.3 (t − 19.5) (±cos 30°, sin 30°):
+///   they overlap in the frames 17 … 22. Both outlines are whole; both have one level, so only their motion tells
+///   which is which.
+/// - `crowd`: twenty discs of radius 8 … 11 and level 160 … 220 in five columns and four rows. Each wanders at one
+///   pixel a frame in a direction that turns; the two of a pair (1 and 2, 3 and 4 …) make for each other from frame 6
+///   to 20 and part again. Where two would overlap by more than 1.5 pixels they are pushed apart, and each ends at the
+///   line of equal power of the two. The objects 5, 12 and 16 are lost at the frames 14, 26 and 33; 15 leaves over the
+///   right border; 22 comes over the left one, 21, 23 and 24 appear and grow for five frames.
 #[must_use]
 pub fn sequences() -> Vec<Sequence> {
     let mut all = single::cases();

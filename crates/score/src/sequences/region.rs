@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-/// Nodes of a true outline that is curved: those of a circle of radius 50 are within 2e-4 pixels of it.
+/// Nodes of a true outline that is curved: those of a circle of radius 50 are within 3e-4 pixels of it.
 const NODES: u32 = 1024;
 
 /// Half the diagonal of a pixel, a little rounded up.

@@ -27,7 +27,8 @@ pub(super) struct Lattice(Vec<f64>);
 
 impl Lattice {
     pub(super) fn of(texture: Texture) -> Self {
-        // of even numbers the deviation is √(1/12); the splines leave 151/315 of it, ∫ of their square along each axis
+        // of even numbers the deviation is √(1/12); the splines leave 151/315 of it, ∫ of their square along each
+        // axis
         let scale = texture.size * 12.0_f64.sqrt() * 315.0 / 151.0;
         let number = |n| scale * (uniform(texture.seed, n) - 0.5);
         Self((0..(SIDE * SIDE) as u64).map(number).collect())

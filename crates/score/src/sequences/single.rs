@@ -85,12 +85,7 @@ pub(super) fn cases() -> Vec<Sequence> {
     all
 }
 
-/// - `move_const`: a circle of radius 20 at (40 + 2.8 t, 96).
-/// - `move_fall`: radius 18 at (30 + 3 t, 24 + 0.09 t²).
-/// - `move_bounce`: radius 18 at (40 + 2.5 t, 24 + 0.36 u²), u = ((t + 20) mod 40) − 20: its velocity jumps at 20.
-/// - `kick`: radius 18, see [`kicked`]: at a kick a share of 0.168 of its area is also that of the frame before. A
-///   circle of radius 13 and of the same level rests below its path at (72, 150).
-/// - `vanish`: as `move_const`, without the circle in the frames 15 … 19.
+/// What moves.
 fn motions() -> Vec<Sequence> {
     let straight = |t: f64| plain(Form::Disc(20.0), DVec2::new(40.0 + 2.8 * t, 96.0));
     vec![
@@ -120,15 +115,7 @@ fn motions() -> Vec<Sequence> {
     ]
 }
 
-/// - `turn`: an ellipse of half axes 50 and 20 at (96, 96), turned by 4 t degrees.
-/// - `turn_fast`: by 12 t degrees, with texture of deviation 15 on it and on the ground.
-/// - `breathe`: `r = 45 + 12 sin(0.2 t) cos 2a` about (96, 96).
-/// - `grow`: a circle of radius 12 + t at (96, 96).
-/// - `amoeba_tex`: [`amoeba`] of level 130 on 110, texture of deviation 14 on it, carried with polar angle and share of
-///   the radius.
-/// - `amoeba_camo`: the same with texture of that deviation on the ground too.
-/// - `noise_cnr2`: the amoeba of level 104 on 96, noise 4.
-/// - `fade`: the amoeba of level 60 + 140 · 0.93ᵗ.
+/// What changes its form or its levels.
 fn shapes() -> Vec<Sequence> {
     let middle = DVec2::splat(96.0);
     let turned = |degrees: f64| {
@@ -161,13 +148,7 @@ fn shapes() -> Vec<Sequence> {
     ]
 }
 
-/// - `occluded`: a circle of radius 18 at (32 + 3.2 t, 96) passes behind a bar of level 130 that covers the columns 79
-///   … 113.
-/// - `distractor`: radius 16 at (40 + 2.6 t, 78); an equal circle at (152 − 2.6 t, 113) passes it at 35 pixels.
-/// - `tongue`: radius 22 at (36 + 3 t, 96), along a bar of level 190 and thickness 14 that touches it from below.
-/// - `camera`: an ellipse of half axes 28 and 20 and level 160 at (66 + 1.5 t, 96), turned by 2 t degrees, on level 100,
-///   with texture of deviation 15 on it and on the ground. In the frames 4 k + 2 and 4 k + 3 the whole picture is
-///   shifted by 15 pixels in a direction that changes with k by the golden angle.
+/// What is hidden, passed, touched or shaken.
 fn disturbed() -> Vec<Sequence> {
     let upright = |half: f64| Form::Box(DVec2::new(half, 400.0));
     let level = |half: f64| Form::Box(DVec2::new(400.0, half));

@@ -12,7 +12,7 @@ const VERSION: u16 = 227;
 const MOST_POINTS: usize = 65535;
 
 /// The file of an outline.
-pub(super) fn roi(shape: &Shape) -> Result<Vec<u8>, String> {
+pub(crate) fn roi(shape: &Shape) -> Result<Vec<u8>, String> {
     let open = shape.closed == Some(false);
     let (kind, shift) = match &shape.rings[..] {
         [ring] if ring.len() == 1 => (POINT, 0.0),

@@ -7,6 +7,8 @@ mod archive;
 mod decode;
 mod encode;
 
+pub(crate) use encode::roi;
+
 use super::budget::{Budget, cannot};
 use super::format::Reading;
 use super::{Shape, Shapes};
@@ -42,7 +44,7 @@ pub(super) fn read(bytes: &[u8], reading: &Reading) -> Result<Shapes, IoError> {
 pub(super) fn write(shapes: &[Shape]) -> Result<Vec<u8>, IoError> {
     let refuse = |what: String| cannot("imagej", what);
     let each = (1..).zip(shapes).map(|(number, shape)| {
-        encode::roi(shape).map_err(|what| refuse(format!("outline {number} {what}")))
+        roi(shape).map_err(|what| refuse(format!("outline {number} {what}")))
     });
     let mut files: Vec<Vec<u8>> = each.collect::<Result<_, _>>()?;
     match &shapes {
