@@ -26,7 +26,7 @@ use video::{Stream, is_video};
 use crate::picture::PictureReading;
 use crate::{IoError, Picture};
 
-pub use listing::is_picture;
+pub use listing::{ENDINGS, is_picture};
 pub use names::{Gap, natural_order};
 
 /// A frame, or why there is none.
