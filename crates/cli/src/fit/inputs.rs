@@ -121,10 +121,7 @@ fn inside(folder: &Path) -> Result<Vec<PathBuf>, SceneError> {
         let hidden = path
             .file_name()
             .is_some_and(|name| is_hidden(Path::new(name)));
-        if path.is_file()
-            && !hidden
-            && is_picture(&path)
-        {
+        if path.is_file() && !hidden && is_picture(&path) {
             list.push(path);
         }
     }

@@ -123,7 +123,11 @@ impl Start {
     }
 
     /// The outlines of a picture of that name, read so, and what people should know of how they were read.
-    pub(crate) fn outlines(&self, reading: &Reading, stem: &str) -> Result<(Vec<Shape>, Vec<String>), SceneError> {
+    pub(crate) fn outlines(
+        &self,
+        reading: &Reading,
+        stem: &str,
+    ) -> Result<(Vec<Shape>, Vec<String>), SceneError> {
         let one = |points, closed| Ok((vec![Shape::curve(points, closed)], Vec::new()));
         match self {
             Self::Curve(points) => one(points.clone(), Some(true)),
@@ -198,7 +202,10 @@ fn reading(flags: &Flags) -> Result<Reading, SceneError> {
 }
 
 /// What flags say of how a file is read.
-pub(crate) fn typed(columns: &[String], origin: Option<flags::Origin>) -> Result<Reading, SceneError> {
+pub(crate) fn typed(
+    columns: &[String],
+    origin: Option<flags::Origin>,
+) -> Result<Reading, SceneError> {
     let columns = match columns {
         [] => None,
         [x, y] => Some((column(x), column(y))),
@@ -211,7 +218,11 @@ pub(crate) fn typed(columns: &[String], origin: Option<flags::Origin>) -> Result
         flags::Origin::Center => Origin::Center,
         flags::Origin::Corner => Origin::Corner,
     });
-    Ok(Reading { columns, origin, ..Reading::default() })
+    Ok(Reading {
+        columns,
+        origin,
+        ..Reading::default()
+    })
 }
 
 fn column(text: &str) -> Column {

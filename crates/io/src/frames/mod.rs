@@ -181,6 +181,15 @@ impl Frames {
         self.total
     }
 
+    /// How many frames are left, if that is known.
+    #[must_use]
+    pub const fn left(&self) -> Option<usize> {
+        match self.total {
+            Some(total) => Some(total.saturating_sub(self.next)),
+            None => None,
+        }
+    }
+
     /// The files that are read, in order.
     #[must_use]
     pub fn files(&self) -> &[PathBuf] {
