@@ -15,6 +15,7 @@
 //! ```
 
 mod animation;
+pub mod chart;
 mod claims;
 mod error;
 mod ffmpeg;

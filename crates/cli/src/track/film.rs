@@ -51,7 +51,7 @@ impl Seen {
             reason = "a rate from 0.01 to 100"
         )]
         let hold = (100.0 / rate).round().clamp(1.0, 65535.0) as u16;
-        let film = Film::begin(path, format, ground.dimensions(), hold)?;
+        let film = Film::begin(path, format, ground.dimensions(), hold, picture.is_color())?;
         Ok(Self {
             film,
             fewer,

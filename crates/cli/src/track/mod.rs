@@ -8,6 +8,8 @@ mod plan;
 mod said;
 mod sinks;
 mod tables;
+mod values;
+mod ways;
 
 use std::sync::Arc;
 
@@ -93,7 +95,17 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
         &options,
     );
     let tracker = tracker.map_err(|error| key("--from", error))?;
+    if let Some(id) = flags.object.filter(|id| !numbers.is_known(*id)) {
+        return Err(key(
+            "--object",
+            format!(
+                "no object has the number {id} at first; needed: {}",
+                numbers.list()
+            ),
+        ));
+    }
     let mut sinks = Sinks::begin(flags, &plan, &frames, &picture, tracked_before)?;
+    sinks.charts(numbers.first(), tracked_before);
     if tracked_before > 0 {
         sinks.replay(&inputs, &reading, tracked_before)?;
     }

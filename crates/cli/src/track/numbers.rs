@@ -44,6 +44,24 @@ impl Numbers {
         })
     }
 
+    /// The least number there is.
+    pub(super) fn first(&self) -> u32 {
+        self.known.values().min().copied().unwrap_or(1)
+    }
+
+    /// Whether an object has that number.
+    pub(super) fn is_known(&self, number: u32) -> bool {
+        self.known.values().any(|own| *own == number)
+    }
+
+    /// The numbers there are, in words.
+    pub(super) fn list(&self) -> String {
+        let own: BTreeSet<u32> = self.known.values().copied().collect();
+        let some: Vec<String> = own.iter().take(20).map(u32::to_string).collect();
+        let more = if own.len() > some.len() { ", …" } else { "" };
+        some.join(", ") + more
+    }
+
     /// The object that has that number.
     pub(super) fn object(&self, number: u32) -> Option<u32> {
         self.known

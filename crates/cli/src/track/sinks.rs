@@ -13,6 +13,8 @@ use super::film::Seen as FilmSeen;
 use super::flags::Flags;
 use super::plan::Plan;
 use super::tables::{EVENTS, MEASURES, event_row, former, measures, row};
+use super::values::Values;
+use super::ways::Ways;
 use crate::output::{goes_nowhere, put_bytes};
 
 /// An outline as it is written, and as it was found.
@@ -52,6 +54,9 @@ pub(super) struct Sinks<'a> {
     film: Option<FilmSeen>,
     measures: String,
     events: String,
+    values: Option<(u32, Values)>,
+    ways: Option<Ways>,
+    limits: Option<(f64, f64)>,
 }
 
 impl<'a> Sinks<'a> {
@@ -98,7 +103,21 @@ impl<'a> Sinks<'a> {
             film,
             measures: kept(&flags.measure, MEASURES)?,
             events: kept(&flags.events, EVENTS)?,
+            values: None,
+            ways: None,
+            limits: picture.shown_limits(),
         })
+    }
+
+    /// Begin what is drawn in the end; the kymograph is of this object if no other is asked for.
+    pub(super) fn charts(&mut self, id: u32, from: usize) {
+        let id = self.flags.object.unwrap_or(id);
+        self.values = self
+            .flags
+            .kymograph
+            .as_ref()
+            .map(|_| (id, Values::new(self.flags.of, id, from)));
+        self.ways = self.flags.trajectories.as_ref().map(|_| Ways::default());
     }
 
     /// Show the frames that a former run has followed, in the film.
@@ -108,9 +127,9 @@ impl<'a> Sinks<'a> {
         reading: &PictureReading,
         until: usize,
     ) -> Result<(), SceneError> {
-        let Some(film) = &mut self.film else {
+        if self.film.is_none() && self.ways.is_none() {
             return Ok(());
-        };
+        }
         let mut rows = TableFrames::growing(&self.out)?.peekable();
         for frame in Frames::open(inputs, reading)?.take(until) {
             let picture = match frame.frame {
@@ -126,7 +145,22 @@ impl<'a> Sinks<'a> {
                     outlines = list;
                 }
             }
-            film.show(frame.index, picture.as_deref(), &outlines)?;
+            self.draw(frame.index, picture.as_deref(), &outlines)?;
+        }
+        Ok(())
+    }
+
+    fn draw(
+        &mut self,
+        frame: usize,
+        picture: Option<&Picture>,
+        list: &[Tracked],
+    ) -> Result<(), SceneError> {
+        if let Some(film) = &mut self.film {
+            film.show(frame, picture, list)?;
+        }
+        if let Some(ways) = &mut self.ways {
+            ways.take(frame, picture, self.limits, list);
         }
         Ok(())
     }
@@ -153,10 +187,11 @@ impl<'a> Sinks<'a> {
         for one in happened {
             self.events.push_str(&event_row(one));
         }
-        if let Some(film) = &mut self.film {
-            film.show(frame, picture, &list)?;
+        if let Some((id, values)) = &mut self.values {
+            let own = seen.iter().find(|one| one.tracked.id == *id);
+            values.take(own.map(|one| &one.outline), picture);
         }
-        Ok(())
+        self.draw(frame, picture, &list)
     }
 
     /// Finish all; what people should know of it.
@@ -164,6 +199,12 @@ impl<'a> Sinks<'a> {
         let notes = self.writer.end()?;
         if let Some(film) = self.film {
             film.end()?;
+        }
+        if let (Some((_, values)), Some(path)) = (self.values, &self.flags.kymograph) {
+            values.write(path)?;
+        }
+        if let (Some(ways), Some(path)) = (self.ways, &self.flags.trajectories) {
+            ways.write(path)?;
         }
         for (path, text) in [
             (&self.flags.measure, &self.measures),

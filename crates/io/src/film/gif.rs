@@ -28,7 +28,7 @@ pub(super) struct Gif {
     path: PathBuf,
     size: (u16, u16),
     hold: u16,
-    /// The file, until its first frame has said whether the film is in color.
+    /// The file, until its first frame.
     file: Option<Whole>,
     encoder: Option<Encoder<BufWriter<Whole>>>,
     palette: Vec<[u8; 3]>,
@@ -46,7 +46,12 @@ impl std::fmt::Debug for Gif {
 }
 
 impl Gif {
-    pub(super) fn begin(path: &Path, size: (u32, u32), hold: u16) -> Result<Self, IoError> {
+    pub(super) fn begin(
+        path: &Path,
+        size: (u32, u32),
+        hold: u16,
+        color: bool,
+    ) -> Result<Self, IoError> {
         let side = |length: u32| {
             u16::try_from(length).map_err(|_| {
                 IoError::file(
@@ -65,7 +70,7 @@ impl Gif {
             file: Some(Whole::begin(path)?),
             encoder: None,
             palette: Vec::new(),
-            color: false,
+            color,
             shown: Vec::new(),
         })
     }
@@ -76,7 +81,6 @@ impl Gif {
 
     pub(super) fn show(&mut self, image: &RgbImage) -> Result<(), IoError> {
         if let Some(file) = self.file.take() {
-            self.color = is_color(image);
             self.palette = if self.color { colors() } else { greys() };
             let bytes: Vec<u8> = self.palette.iter().flatten().copied().collect();
             let encoder = Encoder::new(BufWriter::new(file), self.size.0, self.size.1, &bytes);
@@ -168,25 +172,6 @@ impl Gif {
             .map_err(|error| refuse(error.error()))?
             .end()
     }
-}
-
-/// Whether there is more in a picture than greys, the colors of objects, and greys under their borders.
-fn is_color(image: &RgbImage) -> bool {
-    let palette = greys();
-    let all = &palette[..GREYS + OBJECTS.len() * (MIXED + 1)];
-    let far = |pixel: &&image::Rgb<u8>| {
-        let [r, g, b] = pixel.0;
-        let spread = r.max(g).max(b) - r.min(g).min(b);
-        let own = all[nearest(all, pixel.0)];
-        let off: i32 = own
-            .iter()
-            .zip(pixel.0)
-            .map(|(&a, b)| (i32::from(a) - i32::from(b)).abs())
-            .sum();
-        spread > 8 && off > 90
-    };
-    // borders of lines are few
-    image.pixels().filter(far).count() * 50 > image.pixels().len()
 }
 
 fn nearest(palette: &[[u8; 3]], color: [u8; 3]) -> usize {

@@ -64,7 +64,8 @@ enum Kind {
 }
 
 impl Film {
-    /// Begin a film of frames of that size, each shown for so many hundredths of a second.
+    /// Begin a film of frames of that size, each shown for so many hundredths of a second;
+    /// `color` says whether there is color in them besides the colors of objects, for a GIF, which has 256.
     ///
     /// # Errors
     ///
@@ -75,6 +76,7 @@ impl Film {
         format: FilmFormat,
         size: (u32, u32),
         hold: u16,
+        color: bool,
     ) -> Result<Self, IoError> {
         if size.0 == 0 || size.1 == 0 {
             return Err(IoError::file(
@@ -87,7 +89,7 @@ impl Film {
         }
         let hold = hold.max(1);
         let kind = match format {
-            FilmFormat::Gif => Kind::Gif(Box::new(gif::Gif::begin(path, size, hold)?)),
+            FilmFormat::Gif => Kind::Gif(Box::new(gif::Gif::begin(path, size, hold, color)?)),
             FilmFormat::Apng => Kind::Apng(Box::new(apng::Apng::begin(path, size, hold)?)),
             FilmFormat::Video => Kind::Video(Box::new(video::Video::begin(path, size, hold)?)),
         };

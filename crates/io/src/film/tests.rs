@@ -33,7 +33,7 @@ fn frame(k: u32, color: bool) -> RgbImage {
 }
 
 fn film(path: &Path, format: FilmFormat, color: bool) -> Result<(), IoError> {
-    let mut film = Film::begin(path, format, (40, 30), 8)?;
+    let mut film = Film::begin(path, format, (40, 30), 8, color)?;
     for k in [0, 1, 1, 5] {
         film.show(&frame(k, color))?;
     }
@@ -180,14 +180,14 @@ fn what_is_no_film_is_refused_and_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     for (name, format) in [("a.gif", FilmFormat::Gif), ("a.png", FilmFormat::Apng)] {
         let path = folder.path().join(name);
-        assert!(Film::begin(&path, format, (0, 3), 8).is_err());
+        assert!(Film::begin(&path, format, (0, 3), 8, false).is_err());
         assert!(
-            Film::begin(&path, format, (4, 3), 8)
+            Film::begin(&path, format, (4, 3), 8, false)
                 .unwrap()
                 .end()
                 .is_err()
         );
-        let mut film = Film::begin(&path, format, (4, 3), 8).unwrap();
+        let mut film = Film::begin(&path, format, (4, 3), 8, false).unwrap();
         assert!(
             film.show(&RgbImage::new(3, 4))
                 .unwrap_err()
@@ -195,15 +195,16 @@ fn what_is_no_film_is_refused_and_leaves_nothing() {
                 .contains("3×4")
         );
         drop(film);
-        assert!(Film::begin(&folder.path().join("no/such.gif"), format, (4, 3), 8).is_err());
+        assert!(Film::begin(&folder.path().join("no/such.gif"), format, (4, 3), 8, false).is_err());
     }
-    assert!(Film::begin(Path::new("/dev/null"), FilmFormat::Apng, (4, 3), 8).is_err());
+    assert!(Film::begin(Path::new("/dev/null"), FilmFormat::Apng, (4, 3), 8, false).is_err());
     assert!(
         Film::begin(
             &folder.path().join("b.gif"),
             FilmFormat::Gif,
             (70_000, 3),
-            8
+            8,
+            false
         )
         .is_err()
     );
