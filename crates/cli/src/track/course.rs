@@ -94,6 +94,20 @@ impl Course {
         self.take(tracked, Some(picture), Some(&image), name, sinks, words)
     }
 
+    /// Take the first frame as one that is written and told already.
+    pub(super) fn again(&mut self) {
+        let ids: Vec<u32> = self
+            .tracker
+            .first()
+            .outlines
+            .iter()
+            .map(|outline| outline.id)
+            .collect();
+        let own = ids.into_iter().map(|id| self.numbers.of_object(id));
+        self.tally.objects = own.collect();
+        (self.tally.alive, self.tally.last) = (self.tally.objects.len(), self.from);
+    }
+
     /// The next frame.
     pub(super) fn next(
         &mut self,
@@ -190,9 +204,9 @@ impl Course {
         {
             let text = one.to_string();
             if few {
-                words.say(&text)
+                words.say(&text);
             } else {
-                words.detail(&text)
+                words.detail(&text);
             }
         }
         sinks.frame(frame, name, picture, &seen, &happened)

@@ -104,14 +104,19 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
             ),
         ));
     }
-    let mut sinks = Sinks::begin(flags, &plan, &frames, &picture, tracked_before)?;
-    sinks.charts(numbers.first(), tracked_before);
-    if tracked_before > 0 {
-        sinks.replay(&inputs, &reading, tracked_before)?;
+    // the frame that is gone on with is written already
+    let there = from.as_ref().map_or(0, |(frame, _)| frame + 1);
+    let mut sinks = Sinks::begin(flags, &plan, &frames, &picture, there)?;
+    sinks.charts(numbers.first(), there);
+    if there > 0 {
+        sinks.replay(&inputs, &reading, there)?;
     }
     let mut course = Course::new(tracker, numbers, tracked_before, flags)?;
-    let name = first.name;
-    course.first(&picture, &name, &mut sinks, words)?;
+    if there == 0 {
+        course.first(&picture, &first.name, &mut sinks, words)?;
+    } else {
+        course.again();
+    }
     let bar = said::bar(frames.total(), tracked_before, words);
     while !stop.asked() && !course.is_over() {
         let Some(frame) = frames.next() else { break };

@@ -2,7 +2,7 @@
 
 use crate::paint::byte;
 
-/// From below zero over zero to above: blue, white, red (`RdBu` of ColorBrewer, Brewer 2003, turned round).
+/// From below zero over zero to above: blue, white, red (`RdBu` of `ColorBrewer`, Brewer 2003, turned round).
 const SIGNED: [[u8; 3]; 11] = [
     [5, 48, 97],
     [33, 102, 172],

@@ -273,8 +273,9 @@ mod tests {
 
     /// A wave that runs along, with a frame of nothing.
     fn wave(frames: usize, places: usize) -> Kymograph {
-        let value =
-            |t: usize, s: usize| (s as f64 * 6.283 / places as f64 + t as f64 / 5.0).sin() * 2.0;
+        let value = |t: usize, s: usize| {
+            (s as f64 * std::f64::consts::TAU / places as f64 + t as f64 / 5.0).sin() * 2.0
+        };
         let mut rows: Vec<Vec<f64>> = (0..frames)
             .map(|t| (0..places).map(|s| value(t, s)).collect())
             .collect();

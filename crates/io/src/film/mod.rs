@@ -21,7 +21,7 @@ pub enum FilmFormat {
     Gif,
     /// An animated PNG, in all colors.
     Apng,
-    /// MP4, MOV, MKV or WebM by the program ffmpeg, where it is installed.
+    /// MP4, MOV, MKV or `WebM` by the program ffmpeg, where it is installed.
     Video,
 }
 

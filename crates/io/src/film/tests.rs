@@ -232,5 +232,5 @@ fn dashes_are_as_long_as_asked_for() {
     }
     assert!(pieces.iter().any(|piece| piece.len() > 2));
     assert!(dashes(&[], true, 3.0, 2.0).is_empty());
-    assert_eq!(dashes(&square[..1], true, 3.0, 2.0).len(), 1);
+    assert!(dashes(&square[..1], true, 3.0, 2.0).is_empty());
 }
