@@ -45,6 +45,9 @@ pub(crate) enum Command {
     /// Find outlines in pictures: of what is drawn roughly around, clicked on, or masked.
     #[command(after_help = CODES, after_long_help = crate::fit::EXAMPLES)]
     Fit(Box<crate::fit::Flags>),
+    /// Follow outlines through the frames of a sequence: files, a folder, the pages of a TIFF, a video.
+    #[command(after_help = CODES, after_long_help = crate::track::EXAMPLES)]
+    Track(Box<crate::track::Flags>),
     /// Score the fit of `fit` on a data set whose truth is known.
     #[command(after_help = eval::CODES)]
     Eval(eval::Eval),

@@ -11,6 +11,7 @@ mod fit;
 mod manual;
 mod output;
 mod stop;
+mod track;
 
 use std::process::ExitCode;
 
@@ -28,6 +29,7 @@ fn main() -> ExitCode {
         args::Command::Run(run) => commands::run(&run, words),
         args::Command::Field(field) => commands::field(&field, words),
         args::Command::Fit(flags) => fit::fit(&flags, words),
+        args::Command::Track(flags) => track::track(&flags, words),
         args::Command::Eval(eval) => eval::eval(&eval, words),
         args::Command::Show(show) => commands::show(&show),
         args::Command::List(list) => commands::list(&list, words),

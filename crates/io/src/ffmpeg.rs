@@ -70,7 +70,6 @@ impl Process {
     }
 
     /// What it reads.
-    #[allow(dead_code, reason = "films are written by it")]
     pub(crate) const fn input(&mut self) -> Option<ChildStdin> {
         self.child.stdin.take()
     }

@@ -15,10 +15,13 @@
 //! ```
 
 mod animation;
+pub mod chart;
 mod claims;
 mod error;
 mod ffmpeg;
+pub mod film;
 pub mod frames;
+mod letters;
 pub mod limits;
 pub mod numbers;
 pub mod page;

@@ -8,6 +8,7 @@ use glam::DVec2;
 use image::{ImageFormat, Rgb, RgbImage};
 
 pub use crate::animation::{Animation, Stroke};
+pub use crate::letters::{Lettering, draw_text, text_length};
 use crate::picture::as_u32;
 use crate::write::write_whole;
 use crate::{IoError, Picture};

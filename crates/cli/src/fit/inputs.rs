@@ -3,19 +3,15 @@
 use std::path::{Component, Path, PathBuf};
 
 use io::Picture;
+use io::frames::is_picture;
 use scene::SceneError;
 
 use super::flags::{Flags, Pages};
 use crate::commands::key;
 
-/// Endings of the names of pictures in a folder.
-const ENDINGS: [&str; 12] = [
-    "png", "jpg", "jpeg", "tif", "tiff", "pgm", "ppm", "pnm", "pbm", "pfm", "webp", "btf",
-];
-
 /// The files and folders that names stand for: of one with `*`, `?` or `[…]` that is not the name of a file itself,
 /// all that are called so, in the order of their names.
-pub(super) fn matched(names: &[PathBuf]) -> Result<Vec<PathBuf>, SceneError> {
+pub(crate) fn matched(names: &[PathBuf]) -> Result<Vec<PathBuf>, SceneError> {
     let mut list = Vec::new();
     for name in names {
         let pattern = name.to_str().filter(|text| text.contains(['*', '?', '[']));
@@ -122,21 +118,15 @@ fn inside(folder: &Path) -> Result<Vec<PathBuf>, SceneError> {
     let mut list = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(refuse)? {
         let path = entry.map_err(refuse)?.path();
-        let ending = path
-            .extension()
-            .map(|ending| ending.to_string_lossy().to_lowercase());
         let hidden = path
             .file_name()
             .is_some_and(|name| is_hidden(Path::new(name)));
-        if path.is_file()
-            && !hidden
-            && ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
-        {
+        if path.is_file() && !hidden && is_picture(&path) {
             list.push(path);
         }
     }
     if list.is_empty() {
-        let endings = ENDINGS.join(", ");
+        let endings = io::frames::ENDINGS.join(", ");
         let message = format!("{} holds no picture ({endings})", folder.display());
         return Err(key("picture", message));
     }

@@ -120,7 +120,7 @@ fn row(picture: &Picture, name: &Path, number: usize, found: &Found) -> Vec<Stri
 }
 
 /// A number of so many digits, without zeros behind the last.
-fn plain(value: f64) -> String {
+pub(crate) fn plain(value: f64) -> String {
     let round = format!("{value:.*e}", DIGITS - 1).parse::<f64>();
     // no zero has a sign
     format!("{}", round.unwrap_or(value) + 0.0)
@@ -135,7 +135,7 @@ pub(super) fn called(name: &Path) -> String {
 }
 
 /// A text as a field of a table.
-fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {

@@ -24,15 +24,19 @@ use scene::SceneError;
 use scene::fit::Method;
 use scene::snake::Outcome;
 
+pub(crate) use self::flags::Origin;
 use self::flags::Pages;
 pub(crate) use self::flags::{EXAMPLES, Flags};
+pub(crate) use self::inputs::matched;
 use self::measures::{HEADINGS, rows};
+pub(crate) use self::measures::{plain, quoted};
 use self::one::{Found, all, beside, picture};
 pub(crate) use self::options::rules as search_rules;
 use self::results::write;
+pub(crate) use self::said::counted;
 use self::said::{said, summary};
 use self::sheet::{Rest, Sheet};
-use self::start::stem;
+pub(crate) use self::start::{Start, stem, typed};
 use crate::args::Words;
 use crate::commands::{Answer, code, key, two_inputs};
 use crate::output::{goes_nowhere, put_bytes};
@@ -43,7 +47,7 @@ const TITLE: &str = "a contour fitted to a picture";
 
 /// Find the outlines of a picture, or of many.
 pub(crate) fn fit(flags: &Flags, words: Words) -> Answer {
-    let images = inputs::matched(&flags.images)?;
+    let images = matched(&flags.images)?;
     match &images[..] {
         [image] if flags.out_dir.is_none() && !image.is_dir() => single(flags, image, words),
         _ => batch::many(flags, &images, words),

@@ -69,7 +69,7 @@ fn add(value: &mut Value, plucked: Option<&Plucked>) {
 }
 
 /// So many of something, in words.
-pub(super) fn counted(count: usize, what: &str) -> String {
+pub(crate) fn counted(count: usize, what: &str) -> String {
     match count {
         1 => format!("1 {what}"),
         _ => format!("{count} {what}s"),

@@ -106,7 +106,7 @@ fn numbers(text: &str) -> Option<Vec<f64>> {
 
 impl Start {
     /// The file that is read for a picture of that name.
-    pub(super) fn file(&self, stem: &str) -> Option<PathBuf> {
+    pub(crate) fn file(&self, stem: &str) -> Option<PathBuf> {
         match self {
             Self::File(path) => Some(named(path, stem)),
             _ => None,
@@ -119,13 +119,22 @@ impl Start {
         flags: &Flags,
         stem: &str,
     ) -> Result<(Vec<Shape>, Vec<String>), SceneError> {
+        self.outlines(&reading(flags)?, stem)
+    }
+
+    /// The outlines of a picture of that name, read so, and what people should know of how they were read.
+    pub(crate) fn outlines(
+        &self,
+        reading: &Reading,
+        stem: &str,
+    ) -> Result<(Vec<Shape>, Vec<String>), SceneError> {
         let one = |points, closed| Ok((vec![Shape::curve(points, closed)], Vec::new()));
         match self {
             Self::Curve(points) => one(points.clone(), Some(true)),
             Self::Click(place) => one(vec![*place], None),
             Self::File(_) => {
                 let path = self.file(stem).unwrap_or_default();
-                let (shapes, note) = parts("--from", &path, flags)?;
+                let (shapes, note) = parts("--from", &path, reading)?;
                 let mut notes: Vec<String> = note.into_iter().collect();
                 notes.extend(holes(&path, &shapes));
                 Ok((shapes, notes))
@@ -144,16 +153,16 @@ pub(super) fn named(path: &Path, stem: &str) -> PathBuf {
 
 /// The outlines of a file, each part of one an outline of its own.
 pub(super) fn load(flag: &str, path: &Path, flags: &Flags) -> Result<Vec<Shape>, SceneError> {
-    parts(flag, path, flags).map(|(shapes, _)| shapes)
+    parts(flag, path, &reading(flags)?).map(|(shapes, _)| shapes)
 }
 
 /// [`load`], and what people should know of how the file was read.
 fn parts(
     flag: &str,
     path: &Path,
-    flags: &Flags,
+    reading: &Reading,
 ) -> Result<(Vec<Shape>, Option<String>), SceneError> {
-    let (found, note) = shapes::load_noted(path, &reading(flags)?)?;
+    let (found, note) = shapes::load_noted(path, reading)?;
     if found.iter().all(|shape| shape.first().is_empty()) {
         return Err(key(flag, format!("{} holds no outline", path.display())));
     }
@@ -184,7 +193,20 @@ fn holes(path: &Path, shapes: &[Shape]) -> Option<String> {
 
 /// How the file of the start is read.
 fn reading(flags: &Flags) -> Result<Reading, SceneError> {
-    let columns = match &flags.columns[..] {
+    let about = flags.about.as_ref();
+    Ok(Reading {
+        beside: about.map(|about| about.name.clone()),
+        size: about.map(|about| about.size),
+        ..typed(&flags.columns, flags.origin)?
+    })
+}
+
+/// What flags say of how a file is read.
+pub(crate) fn typed(
+    columns: &[String],
+    origin: Option<flags::Origin>,
+) -> Result<Reading, SceneError> {
+    let columns = match columns {
         [] => None,
         [x, y] => Some((column(x), column(y))),
         list => {
@@ -192,16 +214,13 @@ fn reading(flags: &Flags) -> Result<Reading, SceneError> {
             return Err(key("--columns", message));
         }
     };
-    let origin = flags.origin.map(|origin| match origin {
+    let origin = origin.map(|origin| match origin {
         flags::Origin::Center => Origin::Center,
         flags::Origin::Corner => Origin::Corner,
     });
-    let about = flags.about.as_ref();
     Ok(Reading {
         columns,
         origin,
-        beside: about.map(|about| about.name.clone()),
-        size: about.map(|about| about.size),
         ..Reading::default()
     })
 }
@@ -226,7 +245,7 @@ pub(super) fn contour(shape: &Shape, flags: &Flags) -> Contour {
 }
 
 /// The name of a file without its ending.
-pub(super) fn stem(path: &Path) -> String {
+pub(crate) fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(
         || "picture".to_owned(),
         |stem| stem.to_string_lossy().into_owned(),

@@ -7,8 +7,8 @@ use super::video::is_video;
 use crate::IoError;
 use crate::text::clip_to;
 
-/// Endings of the names of pictures in a folder.
-const ENDINGS: [&str; 12] = [
+/// Endings of the names of pictures, in small letters.
+pub const ENDINGS: [&str; 12] = [
     "png", "jpg", "jpeg", "tif", "tiff", "pgm", "ppm", "pnm", "pbm", "pfm", "webp", "btf",
 ];
 

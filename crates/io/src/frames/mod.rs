@@ -26,7 +26,7 @@ use video::{Stream, is_video};
 use crate::picture::PictureReading;
 use crate::{IoError, Picture};
 
-pub use listing::is_picture;
+pub use listing::{ENDINGS, is_picture};
 pub use names::{Gap, natural_order};
 
 /// A frame, or why there is none.
@@ -179,6 +179,15 @@ impl Frames {
     #[must_use]
     pub const fn total(&self) -> Option<usize> {
         self.total
+    }
+
+    /// How many frames are left, if that is known.
+    #[must_use]
+    pub const fn left(&self) -> Option<usize> {
+        match self.total {
+            Some(total) => Some(total.saturating_sub(self.next)),
+            None => None,
+        }
     }
 
     /// The files that are read, in order.

@@ -64,6 +64,27 @@ impl Picture {
         }
     }
 
+    /// The levels that are shown black and white, where the picture is of more than eight bits.
+    #[must_use]
+    pub fn shown_limits(&self) -> Option<(f64, f64)> {
+        self.deep.then(|| self.seen())
+    }
+
+    /// The picture as a person sees it, between limits that are those of another of the same sequence.
+    #[must_use]
+    pub fn shown_between(&self, limits: Option<(f64, f64)>) -> RgbImage {
+        let Some((low, high)) = limits.filter(|_| self.deep) else {
+            return self.shown();
+        };
+        self.pixels.stretched(low, high).unwrap_or_else(|| {
+            let (width, height) = self.size;
+            RgbImage::from_fn(as_u32(width), as_u32(height), |x, y| {
+                let level = self.level_at(x as usize, y as usize);
+                Rgb([crate::paint::byte(255.0 * (level - low) / (high - low)); 3])
+            })
+        })
+    }
+
     /// Take a size of pixels where none is known.
     pub(crate) fn take_pixel_size(&mut self, size: Option<&PixelSize>) {
         if self.pixel_size.is_none() {

@@ -40,6 +40,8 @@ pub enum TrackState {
     /// It was found in the frame.
     #[default]
     Tracked,
+    /// Part of it was found.
+    Partly,
     /// It was not seen in the frame and is where it was expected.
     Coasting,
     /// It was given: a start, or an outline mended by hand.
@@ -47,11 +49,12 @@ pub enum TrackState {
 }
 
 impl TrackState {
-    /// Its name: `tracked`, `coasting` or `given`.
+    /// Its name: `tracked`, `partly`, `coasting` or `given`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Tracked => "tracked",
+            Self::Partly => "partly",
             Self::Coasting => "coasting",
             Self::Given => "given",
         }

@@ -359,6 +359,17 @@ impl Iterator for TableFrames {
 }
 
 impl TableFrames {
+    /// Open a table, or what there is of it as long as it grows.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be read.
+    pub fn growing(path: &Path) -> Result<Self, IoError> {
+        let target = crate::write::followed(path).map_err(|error| unwritable(path, error))?;
+        let part = part_of(&target);
+        Self::open(if part.is_file() { &part } else { &target })
+    }
+
     /// The frame to go on with: the last of the table `path`, or of what a run that was ended has left of it, and
     /// its outlines. Such a rest may lack some of its last frame, which then is not counted. None where nothing is
     /// there, or no whole frame.

@@ -1,0 +1,221 @@
+//! Where outlines go as they come: the file of tracks, the film, the tables, the kymograph.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use ::track::Outline;
+use io::frames::{Frame, Frames};
+use io::tracks::{TableFrames, TrackContext, TrackFormat, TrackWriter, Tracked};
+use io::{Picture, PictureReading, is_standard};
+use scene::SceneError;
+
+use super::film::Seen as FilmSeen;
+use super::flags::Flags;
+use super::plan::Plan;
+use super::tables::{EVENTS, MEASURES, event_row, former, measures, row};
+use super::values::Values;
+use super::ways::Ways;
+use crate::output::{goes_nowhere, put_bytes};
+
+/// An outline as it is written, and as it was found.
+#[derive(Debug, Clone)]
+pub(super) struct Seen {
+    pub(super) tracked: Tracked,
+    pub(super) outline: Outline,
+}
+
+/// Something that happened to an object.
+#[derive(Debug, Clone)]
+pub(super) struct Happened {
+    pub(super) frame: usize,
+    pub(super) id: u32,
+    pub(super) word: &'static str,
+    pub(super) others: Vec<u32>,
+    pub(super) confidence: f64,
+}
+
+impl fmt::Display for Happened {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "frame {}: object {} {}", self.frame, self.id, self.word)?;
+        match (self.word, &self.others[..]) {
+            ("divided", [a, b]) => write!(f, " into {a} and {b}"),
+            ("merged", [other]) => write!(f, " with {other}"),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// All that is written.
+#[derive(Debug)]
+pub(super) struct Sinks<'a> {
+    flags: &'a Flags,
+    writer: TrackWriter,
+    out: PathBuf,
+    film: Option<FilmSeen>,
+    measures: String,
+    events: String,
+    values: Option<(u32, Values)>,
+    ways: Option<Ways>,
+    limits: Option<(f64, f64)>,
+}
+
+impl<'a> Sinks<'a> {
+    /// Begin all files; frames before `from` are there already.
+    pub(super) fn begin(
+        flags: &'a Flags,
+        plan: &Plan,
+        frames: &Frames,
+        picture: &Picture,
+        from: usize,
+    ) -> Result<Self, SceneError> {
+        let name = frames
+            .files()
+            .first()
+            .map_or_else(String::new, |file| crate::fit::stem(file));
+        let context = TrackContext {
+            size: picture.size(),
+            frames: frames.total(),
+            name,
+            label: None,
+        };
+        let writer = if flags.resume && plan.format == TrackFormat::Csv {
+            TrackWriter::resume(plan.out(), from)?
+        } else {
+            TrackWriter::begin(plan.out(), plan.format, &context)?
+        };
+        if is_standard(plan.out()) && goes_nowhere() {
+            crate::output::complain(
+                "note: standard output is closed or /dev/null: the outlines are kept nowhere",
+            );
+        }
+        let film = match (plan.film, &flags.overlay) {
+            (Some(format), Some(path)) => Some(FilmSeen::begin(path, format, picture, flags.rate)?),
+            _ => None,
+        };
+        let kept = |path: &Option<PathBuf>, heading: &str| match path {
+            Some(path) if flags.resume && from > 0 => former(path, heading, from),
+            _ => Ok(format!("{heading}\n")),
+        };
+        Ok(Self {
+            flags,
+            writer,
+            out: plan.out().to_owned(),
+            film,
+            measures: kept(&flags.measure, MEASURES)?,
+            events: kept(&flags.events, EVENTS)?,
+            values: None,
+            ways: None,
+            limits: picture.shown_limits(),
+        })
+    }
+
+    /// Begin what is drawn in the end; the kymograph is of this object if no other is asked for.
+    pub(super) fn charts(&mut self, id: u32, from: usize) {
+        let id = self.flags.object.unwrap_or(id);
+        self.values = self
+            .flags
+            .kymograph
+            .as_ref()
+            .map(|_| (id, Values::new(self.flags.of, id, from)));
+        self.ways = self.flags.trajectories.as_ref().map(|_| Ways::default());
+    }
+
+    /// Show the frames that a former run has followed, in the film.
+    pub(super) fn replay(
+        &mut self,
+        inputs: &[PathBuf],
+        reading: &PictureReading,
+        until: usize,
+    ) -> Result<(), SceneError> {
+        if self.film.is_none() && self.ways.is_none() {
+            return Ok(());
+        }
+        let mut rows = TableFrames::growing(&self.out)?.peekable();
+        for frame in Frames::open(inputs, reading)?.take(until) {
+            let picture = match frame.frame {
+                Frame::Picture(picture) => Some(picture),
+                Frame::Broken(_) => None,
+            };
+            let mut outlines = Vec::new();
+            while let Some(next) =
+                rows.next_if(|next| next.as_ref().is_ok_and(|(at, _)| *at <= frame.index))
+            {
+                let (at, list) = next?;
+                if at == frame.index {
+                    outlines = list;
+                }
+            }
+            self.draw(frame.index, picture.as_deref(), &outlines)?;
+        }
+        Ok(())
+    }
+
+    fn draw(
+        &mut self,
+        frame: usize,
+        picture: Option<&Picture>,
+        list: &[Tracked],
+    ) -> Result<(), SceneError> {
+        if let Some(film) = &mut self.film {
+            film.show(frame, picture, list)?;
+        }
+        if let Some(ways) = &mut self.ways {
+            ways.take(frame, picture, self.limits, list);
+        }
+        Ok(())
+    }
+
+    /// Take a frame.
+    pub(super) fn frame(
+        &mut self,
+        frame: usize,
+        name: &str,
+        picture: Option<&Picture>,
+        seen: &[Seen],
+        happened: &[Happened],
+    ) -> Result<(), SceneError> {
+        let mut list: Vec<Tracked> = seen.iter().map(|one| one.tracked.clone()).collect();
+        for (one, seen) in list.iter_mut().zip(seen) {
+            one.measures = measures(seen);
+        }
+        self.writer.frame(frame, name, &list)?;
+        if self.flags.measure.is_some() {
+            for one in &list {
+                self.measures.push_str(&row(name, one));
+            }
+        }
+        for one in happened {
+            self.events.push_str(&event_row(one));
+        }
+        if let Some((id, values)) = &mut self.values {
+            let own = seen.iter().find(|one| one.tracked.id == *id);
+            values.take(own.map(|one| &one.outline), picture);
+        }
+        self.draw(frame, picture, &list)
+    }
+
+    /// Finish all; what people should know of it.
+    pub(super) fn end(self) -> Result<Vec<String>, SceneError> {
+        let notes = self.writer.end()?;
+        if let Some(film) = self.film {
+            film.end()?;
+        }
+        if let (Some((_, values)), Some(path)) = (self.values, &self.flags.kymograph) {
+            values.write(path)?;
+        }
+        if let (Some(ways), Some(path)) = (self.ways, &self.flags.trajectories) {
+            ways.write(path)?;
+        }
+        for (path, text) in [
+            (&self.flags.measure, &self.measures),
+            (&self.flags.events, &self.events),
+        ] {
+            match path {
+                Some(path) if is_standard(path) => put_bytes(text.as_bytes())?,
+                Some(path) => io::write_whole(path, text.as_bytes())?,
+                None => {}
+            }
+        }
+        Ok(notes)
+    }
+}

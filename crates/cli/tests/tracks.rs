@@ -1,0 +1,454 @@
+//! `snake track`: what it reads, what it writes, what it says, and how it goes on.
+#![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a test: small whole numbers"
+)]
+
+mod common;
+
+use common::{Answer, Folder};
+
+/// A bright disc of radius 9 that moves two pixels a frame, as PGM.
+fn disc(frame: usize) -> Vec<u8> {
+    let center = (20.0 + 2.0 * frame as f64, 24.0);
+    let mut bytes = b"P5\n80 48\n255\n".to_vec();
+    for y in 0..48 {
+        for x in 0..80 {
+            let inside = 9.5 - (f64::from(x) - center.0).hypot(f64::from(y) - center.1);
+            bytes.push(common::fits::byte(60.0 + 120.0 * inside.clamp(0.0, 1.0)));
+        }
+    }
+    bytes
+}
+
+const START: [&str; 4] = ["--from", "circle:20,24,9", "--start", "exact"];
+
+/// A folder `in` with so many frames, and masks beside them.
+fn frames(count: usize) -> Folder {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("in")).unwrap();
+    for frame in 0..count {
+        folder.write(&format!("in/f{frame}.pgm"), disc(frame));
+        folder.write(&format!("in/f{frame}_mask.pgm"), b"P5\n1 1\n255\n\xff");
+    }
+    folder
+}
+
+fn run(folder: &Folder, more: &[&str]) -> Answer {
+    folder.snake(&[&["track", "in"][..], &START, more].concat())
+}
+
+fn read(folder: &Folder, name: &str) -> String {
+    std::fs::read_to_string(folder.path(name)).unwrap()
+}
+
+/// The mean place of the points of each frame of a table.
+fn middles(text: &str) -> Vec<(usize, f64, f64)> {
+    let mut list: Vec<(usize, f64, f64, f64)> = Vec::new();
+    for line in text.lines().skip(1) {
+        let numbers: Vec<f64> = line.split(',').map(|word| word.parse().unwrap()).collect();
+        let frame = numbers[0] as usize;
+        match list.last_mut() {
+            Some(last) if last.0 == frame => {
+                (last.1, last.2, last.3) = (last.1 + numbers[2], last.2 + numbers[3], last.3 + 1.0);
+            }
+            _ => list.push((frame, numbers[2], numbers[3], 1.0)),
+        }
+    }
+    list.into_iter()
+        .map(|(frame, x, y, n)| (frame, x / n, y / n))
+        .collect()
+}
+
+#[test]
+fn a_disc_is_followed_and_all_is_written_that_is_asked_for() {
+    let folder = frames(8);
+    let answer = run(
+        &folder,
+        &[
+            "-o",
+            "t.csv",
+            "--measure",
+            "m.csv",
+            "--events",
+            "e.csv",
+            "--overlay",
+            "o.gif",
+            "--kymograph",
+            "k.png",
+            "--trajectories",
+            "w.png",
+            "--json",
+        ],
+    );
+    assert_eq!(answer.code, Some(0), "{answer:?}");
+    assert!(
+        answer.err.contains("1 object followed through 8 frames"),
+        "{answer:?}"
+    );
+    assert!(answer.err.contains("8 files are masks"), "{answer:?}");
+    let json: serde_json::Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(
+        (&json["frames"], &json["good"], &json["left"]),
+        (&8.into(), &true.into(), &0.into())
+    );
+    let text = read(&folder, "t.csv");
+    assert!(text.starts_with("frame,id,x,y\n0,1,"), "{text}");
+    let found = middles(&text);
+    assert_eq!(found.len(), 8);
+    for (frame, x, y) in found {
+        let off = (x - 20.0 - 2.0 * frame as f64).hypot(y - 24.0);
+        assert!(off < 0.4, "{frame}: {x} {y}");
+    }
+    let measures = read(&folder, "m.csv");
+    assert_eq!(measures.lines().count(), 9);
+    let areas: Vec<f64> = measures
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').nth(6).unwrap().parse().unwrap())
+        .collect();
+    // π 9² = 254, and half a pixel around is 28
+    assert!(
+        areas.iter().all(|area| (area - 254.0).abs() < 28.0),
+        "{areas:?}"
+    );
+    assert_eq!(
+        read(&folder, "e.csv"),
+        "frame,id,event,others,confidence\n0,1,begun,,1\n"
+    );
+    for (name, head) in [
+        ("o.gif", &b"GIF89a"[..]),
+        ("k.png", b"\x89PNG"),
+        ("w.png", b"\x89PNG"),
+    ] {
+        assert!(
+            std::fs::read(folder.path(name)).unwrap().starts_with(head),
+            "{name}"
+        );
+    }
+    // the same again gives the same bytes, for any number of threads
+    let before: Vec<Vec<u8>> = ["t.csv", "o.gif", "k.png"]
+        .map(|name| std::fs::read(folder.path(name)).unwrap())
+        .into();
+    let again = run(
+        &folder,
+        &[
+            "-o",
+            "t.csv",
+            "--overlay",
+            "o.gif",
+            "--kymograph",
+            "k.png",
+            "-j",
+            "1",
+        ],
+    );
+    assert_eq!(again.code, Some(0));
+    let after: Vec<Vec<u8>> = ["t.csv", "o.gif", "k.png"]
+        .map(|name| std::fs::read(folder.path(name)).unwrap())
+        .into();
+    assert!(before == after);
+}
+
+#[test]
+fn every_format_is_written_by_the_name_of_its_file() {
+    let folder = frames(3);
+    for (name, begin) in [
+        ("t.geojson", "{\"type\":\"FeatureCollection\""),
+        ("t.json", "{\"videos\":[{"),
+        ("t.txt", "1,1,"),
+    ] {
+        assert_eq!(run(&folder, &["-q", "-o", name]).code, Some(0), "{name}");
+        assert!(read(&folder, name).starts_with(begin), "{name}");
+    }
+    assert_eq!(run(&folder, &["-q", "-o", "t.zip"]).code, Some(0));
+    assert!(
+        std::fs::read(folder.path("t.zip"))
+            .unwrap()
+            .starts_with(b"PK")
+    );
+    assert_eq!(
+        run(&folder, &["-q", "-o", "res", "--as", "ctc"]).code,
+        Some(0)
+    );
+    assert_eq!(read(&folder, "res/res_track.txt"), "1 0 2 0\n");
+    assert!(folder.path("res/mask002.tif").exists());
+    let answer = run(&folder, &["-q"]);
+    assert_eq!(middles(&answer.out).len(), 3);
+    assert_eq!(
+        middles(&answer.out),
+        middles(
+            &folder
+                .snake_reading(
+                    &[
+                        "track",
+                        "-",
+                        "-q",
+                        "--from",
+                        "circle:20,24,9",
+                        "--start",
+                        "exact"
+                    ],
+                    [disc(0), disc(1), disc(2)].concat()
+                )
+                .out
+        )
+    );
+}
+
+#[test]
+fn a_frame_that_cannot_be_used_is_coasted_over_and_told() {
+    let folder = frames(7);
+    folder.write("in/f3.pgm", b"P5\n80 48\n255\n");
+    let answer = run(
+        &folder,
+        &[
+            "-o",
+            "t.csv",
+            "--measure",
+            "m.csv",
+            "--overlay",
+            "o.png",
+            "--json",
+        ],
+    );
+    assert_eq!(answer.code, Some(1), "{answer:?}");
+    assert!(
+        answer
+            .err
+            .contains("frame 3, f3.pgm: the picture cannot be decoded"),
+        "{answer:?}"
+    );
+    let states: Vec<String> = read(&folder, "m.csv")
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').nth(4).unwrap().to_owned())
+        .collect();
+    assert_eq!(states[3], "coasting");
+    assert!(
+        states
+            .iter()
+            .enumerate()
+            .all(|(at, state)| at == 3 || state == "tracked"),
+        "{states:?}"
+    );
+    let json: serde_json::Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(json["broken_frames"], serde_json::json!(["f3.pgm"]));
+    let last = middles(&read(&folder, "t.csv"))[6];
+    assert!((last.1 - 32.0).abs() < 0.5, "{last:?}");
+    // a frame of another size is one of them, and a number that is missing is told
+    folder.write("in/f3.pgm", b"P5\n1 1\n255\n\x00");
+    std::fs::remove_file(folder.path("in/f5.pgm")).unwrap();
+    let answer = run(&folder, &["-o", "t.csv"]);
+    assert_eq!(answer.code, Some(1));
+    assert!(
+        answer
+            .err
+            .contains("has 1×1 pixels and the first frame 80×48"),
+        "{answer:?}"
+    );
+    assert!(
+        answer.err.contains("missing in the sequence: 5"),
+        "{answer:?}"
+    );
+}
+
+#[test]
+fn a_run_that_was_ended_is_gone_on_with() {
+    let folder = frames(8);
+    for frame in 5..8 {
+        std::fs::rename(
+            folder.path(&format!("in/f{frame}.pgm")),
+            folder.path(&format!("f{frame}.pgm")),
+        )
+        .unwrap();
+    }
+    let more = ["-o", "t.csv", "--measure", "m.csv", "--events", "e.csv"];
+    assert_eq!(run(&folder, &more).code, Some(0));
+    let (table, measures) = (read(&folder, "t.csv"), read(&folder, "m.csv"));
+    for frame in 5..8 {
+        std::fs::rename(
+            folder.path(&format!("f{frame}.pgm")),
+            folder.path(&format!("in/f{frame}.pgm")),
+        )
+        .unwrap();
+    }
+    let again = |more: &[&str]| {
+        run(
+            &folder,
+            &[more, &["--resume", "--overlay", "o.gif"]].concat(),
+        )
+    };
+    let answer = again(&more);
+    assert_eq!(answer.code, Some(0), "{answer:?}");
+    assert!(answer.err.contains("goes on with frame 4"), "{answer:?}");
+    let whole = read(&folder, "t.csv");
+    assert!(whole.starts_with(&table), "the rows that were there stay");
+    assert_eq!(middles(&whole).len(), 8);
+    let rows: Vec<String> = read(&folder, "m.csv").lines().map(str::to_owned).collect();
+    assert_eq!(rows.len(), 9);
+    assert_eq!(
+        rows[..5],
+        measures.lines().map(str::to_owned).collect::<Vec<_>>()[..5]
+    );
+    let last = middles(&whole)[7];
+    assert!((last.1 - 34.0).abs() < 0.5, "{last:?}");
+    // a rest of a run that was killed is not written over, and gone on with if that is asked for
+    let cut = whole
+        .lines()
+        .take_while(|line| !line.starts_with("6,"))
+        .map(|line| format!("{line}\n"))
+        .collect::<String>();
+    std::fs::remove_file(folder.path("t.csv")).unwrap();
+    folder.write("t.csv.part", cut + "6,1,3");
+    folder.refused(
+        &[&["track", "in", "-q"][..], &START, &["-o", "t.csv"]].concat(),
+        &["t.csv.part", "--resume"],
+    );
+    assert_eq!(again(&more).code, Some(0));
+    assert!(!folder.path("t.csv.part").exists());
+    assert_eq!(middles(&read(&folder, "t.csv")).len(), 8);
+}
+
+#[test]
+fn an_outline_that_was_mended_by_hand_is_gone_on_from() {
+    let folder = frames(6);
+    let mut rows = String::from("frame,id,x,y\n");
+    for k in 0..40 {
+        let angle = f64::from(k) * std::f64::consts::TAU / 40.0;
+        rows.push_str(&format!(
+            "3,1,{},{}\n",
+            26.0 + 9.0 * angle.cos(),
+            24.0 + 9.0 * angle.sin()
+        ));
+    }
+    folder.write("mend.csv", rows);
+    let answer = run(
+        &folder,
+        &[
+            "-o",
+            "t.csv",
+            "--mend",
+            "mend.csv",
+            "--measure",
+            "m.csv",
+            "--events",
+            "e.csv",
+        ],
+    );
+    assert_eq!(answer.code, Some(0), "{answer:?}");
+    assert!(
+        answer.err.contains("frame 3: object 1 mended"),
+        "{answer:?}"
+    );
+    let count = read(&folder, "t.csv")
+        .lines()
+        .filter(|line| line.starts_with("3,"))
+        .count();
+    assert_eq!(count, 40);
+    assert!(
+        read(&folder, "m.csv")
+            .lines()
+            .nth(4)
+            .unwrap()
+            .contains(",given,")
+    );
+    assert!(read(&folder, "e.csv").contains("\n3,1,mended,"));
+    folder.write("mend.csv", "frame,id,x,y\n1,7,1,1\n1,7,5,1\n1,7,5,5\n");
+    let answer = run(&folder, &["-o", "t2.csv", "--mend", "mend.csv"]);
+    assert_eq!(answer.code, Some(2));
+    assert!(
+        answer
+            .err
+            .contains("--mend: frame 1, object 7: no such object"),
+        "{answer:?}"
+    );
+}
+
+#[test]
+fn what_makes_no_sense_is_refused_and_nothing_is_written() {
+    let folder = frames(2);
+    folder.write("t.csv", "mine");
+    let refused = |more: &[&str], says: &[&str]| {
+        folder.refused(&[&["track", "in", "-q"][..], &START, more].concat(), says);
+    };
+    refused(
+        &["--as", "xml"],
+        &["--as: must be one of csv, geojson, coco, ctc, imagej, mot, got xml"],
+    );
+    refused(
+        &["-o", "t.doc"],
+        &["--out: t.doc: the ending names no format"],
+    );
+    refused(
+        &["-o", "in/f1.pgm", "--as", "csv"],
+        &["in/f1.pgm is a file that is read"],
+    );
+    refused(
+        &["-o", "in", "--as", "ctc"],
+        &["in is the folder of the frames"],
+    );
+    refused(&["-o", "a.csv", "--measure", "a.csv"], &["taken by --out"]);
+    refused(
+        &["-o", "t.csv", "--no-clobber"],
+        &["t.csv is there already"],
+    );
+    refused(
+        &["--overlay", "o.avi"],
+        &["--overlay: the name must end in .gif"],
+    );
+    refused(
+        &["--kymograph", "k.gif"],
+        &["--kymograph: the name must end in .png or .csv"],
+    );
+    refused(
+        &["--rate", "0"],
+        &["--rate: must be from 0.01 to 100, got 0"],
+    );
+    refused(
+        &["--json"],
+        &["--json: writes to standard output, and so does --out"],
+    );
+    refused(
+        &["-o", "a.zip", "--resume"],
+        &["--resume: goes on with a table"],
+    );
+    refused(
+        &["-o", "a.csv", "--kymograph", "k.png", "--object", "4"],
+        &["no object has the number 4 at first; needed: 1"],
+    );
+    folder.refused(
+        &[
+            "track",
+            "in",
+            "-q",
+            "--from",
+            "circle:500,500,9",
+            "-o",
+            "a.csv",
+        ],
+        &["--from: start 0"],
+    );
+    folder.refused(
+        &["track", "none", "-q", "--from", "circle:20,24,9"],
+        &["none: cannot be read: there is no such file"],
+    );
+    folder.write("in/g1.pgm", disc(1));
+    folder.write("in/g2.pgm", disc(2));
+    refused(
+        &[],
+        &[
+            "holds two sequences",
+            "f0.pgm to f1.pgm (2 files)",
+            "g1.pgm to g2.pgm (2 files)",
+            "needed",
+        ],
+    );
+    folder.write("cut.pgm", &disc(0)[..40]);
+    folder.refused(
+        &["track", "cut.pgm", "-q", "--from", "circle:20,24,9"],
+        &["first frame: cut.pgm: "],
+    );
+}
