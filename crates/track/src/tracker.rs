@@ -161,7 +161,7 @@ impl Tracker {
             object.unseen = if is.is_seen() { 0 } else { object.unseen + 1 };
             if object.unseen > self.options.patience {
                 say(Happening::Lost, 1.0);
-            } else {
+            } else if is != State::Left {
                 tracked.outlines.push(object.outline(&step));
             }
         }
@@ -183,7 +183,9 @@ impl Tracker {
             let step = object.body.coast(None, Prediction::Flown, 0.0);
             object.state = step.state;
             object.unseen += 1;
-            tracked.outlines.push(object.outline(&step));
+            if object.state != State::Left {
+                tracked.outlines.push(object.outline(&step));
+            }
             let (frame, id) = (self.frame, object.id);
             tracked.events.push(Event {
                 frame,
