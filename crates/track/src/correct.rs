@@ -38,6 +38,20 @@ pub(crate) struct Band {
     pub half: usize,
 }
 
+/// How much the region, the profile and the edge speak.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Weights {
+    region: f64,
+    profile: f64,
+    edge: f64,
+}
+
+/// To find where the curve has gone.
+pub(crate) const ALL: Weights = Weights { region: REGION, profile: PROFILE, edge: EDGE };
+
+/// To place it, once it is found: the region would push it off the middle of a strong edge.
+pub(crate) const EDGES: Weights = Weights { region: 0.0, profile: 0.0, edge: EDGE };
+
 /// An offset of each node, and how firmly it is known: the curvature of its cost.
 #[derive(Debug, Clone)]
 pub(crate) struct Offsets {
@@ -46,7 +60,7 @@ pub(crate) struct Offsets {
 }
 
 /// The best offsets; None where there is no path.
-pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option<Offsets> {
+pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band, weights: Weights) -> Option<Offsets> {
     let n = strips.curve.len();
     let half = band.half.cast_signed();
     let states = 2 * band.half + 1;
@@ -80,16 +94,16 @@ pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option
         }
         for (k, cost) in row.iter_mut().enumerate() {
             let d = k as f64 - band.half as f64;
-            *cost = -REGION * sums[k] + tail(d / band.tether);
+            *cost = -weights.region * sums[k] + tail(d / band.tether);
             if let Some(profiles) = look.profiles {
                 let samples: Option<Vec<Feature>> = line[k..k + SAMPLES].iter().copied().collect();
                 let misfit = samples.map_or(WORST, |samples| {
                     (0.5 * profiles.misfit(i, &samples)).min(WORST)
                 });
-                *cost += PROFILE * misfit;
+                *cost += weights.profile * misfit;
             }
             if let Some((edges, half)) = look.edges {
-                *cost -= EDGE * edges.at(look.window, strips, i, d + edges.offsets[i], half);
+                *cost -= weights.edge * edges.at(look.window, strips, i, d + edges.offsets[i], half);
             }
             let [inner, outer] = strips.room[i];
             if -d > inner || d > 2.0 * outer {

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::body::{Body, Frame, Seen, Step};
-use crate::correct::{Band, Offsets, Pass, moved, offsets, simple};
+use crate::correct::{ALL, Band, EDGES, Offsets, Pass, moved, offsets, simple};
 use crate::edges::half;
 use crate::evidence::{Evidence, Look};
 use crate::predict::{Flowed, Prediction, flowed};
@@ -316,6 +316,7 @@ impl Body {
             return seen;
         };
         let next = moved(&strips, &found, Pass::Full);
+        let next = fine(look, &next, radius);
         seen.moved = found.offsets.iter().map(|d| d.abs()).sum::<f64>() / n as f64;
         let after = Evidence::of(look, &Strips::of(&next, radius));
         let mut quality = self.quality_of(&after);
@@ -342,7 +343,7 @@ impl Body {
 
     /// Offsets, those of nodes that were not seen with little weight.
     fn offsets(&self, look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option<Offsets> {
-        let mut found = offsets(look, strips, band)?;
+        let mut found = offsets(look, strips, band, ALL)?;
         found
             .held
             .iter_mut()
@@ -350,4 +351,14 @@ impl Body {
             .for_each(|(held, q)| *held *= LOOSE + q);
         Some(found)
     }
+}
+
+/// The band in which a curve that was found is placed on its edge.
+const FINE: Band = Band { tether: 1.5, half: 2 };
+
+/// A curve placed on its edge, where it has one.
+fn fine(look: Look<'_>, curve: &[DVec2], radius: f64) -> Vec<DVec2> {
+    let strips = Strips::of(curve, radius);
+    let found = offsets(look, &strips, FINE, EDGES);
+    found.map_or_else(|| curve.to_vec(), |found| moved(&strips, &found, Pass::Full))
 }

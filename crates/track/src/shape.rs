@@ -69,9 +69,10 @@ impl Shape {
         }
     }
 
-    /// Whether a node has strayed in the last frame.
-    pub(crate) fn is_astray(&self, node: usize) -> bool {
-        self.astray[node] > 0
+    /// Whether too much is hidden for the rest to tell the size.
+    fn is_hidden(&self, quality: &[f64]) -> bool {
+        let hidden = (0..quality.len()).filter(|&i| quality[i] <= 0.0 || self.astray[i] > 0).count();
+        hidden as f64 > FEW * quality.len() as f64
     }
 
     /// The shape laid on most of a curve; `quality` of nodes now, and `before`, 0 … 1.
@@ -82,10 +83,7 @@ impl Shape {
             .map(|(now, before)| now * before + UNSEEN)
             .collect();
         let mut motion = similarity(&self.nodes, curve, &weights).unwrap_or(Similarity::STILL);
-        let hidden = (0..curve.len())
-            .filter(|&i| quality[i] <= 0.0 || self.is_astray(i))
-            .count();
-        if hidden as f64 > FEW * curve.len() as f64 {
+                if self.is_hidden(quality) {
             motion.turn = motion.turn.normalize_or(DVec2::X);
         }
         self.nodes.iter().map(|p| motion.at(*p)).collect()
@@ -150,7 +148,10 @@ impl Shape {
     /// The shape follows a curve where it was seen.
     pub(crate) fn follow(&mut self, curve: &[DVec2], quality: &[f64], strays: &[bool], off: f64) {
         let weights: Vec<f64> = quality.iter().map(|q| q + UNSEEN).collect();
-        let laid = ring::laid(&self.nodes, curve, &weights);
+        let mut laid = ring::laid(&self.nodes, curve, &weights);
+        if self.is_hidden(quality) {
+            laid.turn = laid.turn.normalize_or(DVec2::X);
+        }
         for ((node, p), q) in self.nodes.iter_mut().zip(curve).zip(quality) {
             *node = laid.at(*node).lerp(*p, FOLLOW * q);
         }
