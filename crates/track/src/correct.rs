@@ -3,6 +3,7 @@
 use glam::DVec2;
 use search::path::{Costs, Steps};
 
+use crate::edges::strength;
 use crate::evidence::Look;
 use crate::palette::Feature;
 use crate::profile::{HALF, SAMPLES};
@@ -10,10 +11,10 @@ use crate::ring;
 use crate::tables::Strips;
 
 /// Weight of the region and of the profile, and the most that a profile may speak against a place.
-const REGION: f64 = 0.5;
+#[allow(non_snake_case)] fn REGION() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("REGION").ok().and_then(|v| v.parse().ok()).unwrap_or(0.5)) }
 /// Weight of an edge.
-const EDGE: f64 = 6.0;
-const PROFILE: f64 = 1.0;
+#[allow(non_snake_case)] fn EDGE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("EDGE").ok().and_then(|v| v.parse().ok()).unwrap_or(6.0)) }
+#[allow(non_snake_case)] fn PROFILE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("PROFILE").ok().and_then(|v| v.parse().ok()).unwrap_or(1.0)) }
 const WORST: f64 = 3.0;
 
 /// Degrees of freedom of the tether: how soon it lets go.
@@ -44,13 +45,12 @@ pub(crate) struct Weights {
     region: f64,
     profile: f64,
     edge: f64,
+    /// Whether the steepest slope is meant, not any.
+    sharp: bool,
 }
 
-/// To find where the curve has gone.
-pub(crate) const ALL: Weights = Weights { region: REGION, profile: PROFILE, edge: EDGE };
-
-/// To place it, once it is found: the region would push it off the middle of a strong edge.
-pub(crate) const EDGES: Weights = Weights { region: 0.0, profile: 0.0, edge: EDGE };
+pub(crate) fn all() -> Weights { Weights { region: REGION(), profile: PROFILE(), edge: EDGE(), sharp: false } }
+pub(crate) fn edges_only() -> Weights { Weights { region: 0.0, profile: 0.0, edge: EDGE(), sharp: true } }
 
 /// An offset of each node, and how firmly it is known: the curvature of its cost.
 #[derive(Debug, Clone)]
@@ -92,18 +92,29 @@ pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band, weights: 
                 sums[(half + sign * k).unsigned_abs()] = sum;
             }
         }
+        if let Some((edges, steep)) = look.edges {
+            let slopes: Vec<f32> = (-half..=half)
+                .map(|d| edges.slope(look.window, strips, i, d as f64 + edges.offsets[i]))
+                .collect();
+            let steepest = slopes.iter().copied().fold(0.0, f32::max);
+            for (cost, slope) in row.iter_mut().zip(&slopes) {
+                let edge = if weights.sharp && steepest > 0.0 {
+                    strength(steepest, steep) * f64::from((slope / steepest).max(0.0))
+                } else {
+                    strength(*slope, steep)
+                };
+                *cost -= weights.edge * edge;
+            }
+        }
         for (k, cost) in row.iter_mut().enumerate() {
             let d = k as f64 - band.half as f64;
-            *cost = -weights.region * sums[k] + tail(d / band.tether);
+            *cost += -weights.region * sums[k] + tail(d / band.tether);
             if let Some(profiles) = look.profiles {
                 let samples: Option<Vec<Feature>> = line[k..k + SAMPLES].iter().copied().collect();
                 let misfit = samples.map_or(WORST, |samples| {
                     (0.5 * profiles.misfit(i, &samples)).min(WORST)
                 });
                 *cost += weights.profile * misfit;
-            }
-            if let Some((edges, half)) = look.edges {
-                *cost -= weights.edge * edges.at(look.window, strips, i, d + edges.offsets[i], half);
             }
             let [inner, outer] = strips.room[i];
             if -d > inner || d > 2.0 * outer {

@@ -100,7 +100,7 @@ impl Edges {
         for i in 0..n {
             let near = NEAR.cast_signed();
             let values: Vec<f64> = (-near..=near)
-                .map(|d| edges.at(window, strips, i, d as f64, half))
+                .map(|d| f64::from(edges.slope(window, strips, i, d as f64)))
                 .collect();
             let best = (0..values.len())
                 .max_by(|&a, &b| values[a].total_cmp(&values[b]))
@@ -113,8 +113,9 @@ impl Edges {
                 } else {
                     0.0
                 };
-                sums[i] = b * b * (best as f64 - NEAR as f64 + share);
-                weights[i] = b * b;
+                let firm = strength(b as f32, half).powi(2);
+                sums[i] = firm * (best as f64 - NEAR as f64 + share);
+                weights[i] = firm;
             }
         }
         let (sums, weights) = (ring::along(&sums, CALM), ring::along(&weights, CALM));
@@ -127,14 +128,18 @@ impl Edges {
     }
 
     /// How much of its edge a node has so far out.
-    pub(crate) fn at(
+    pub(crate) fn at(&self, window: &Window, strips: &Strips<'_>, node: usize, offset: f64, half: f32) -> f64 {
+        strength(self.slope(window, strips, node, offset), half)
+    }
+
+    /// The slope of the color of its edge so far out from a node, above 0 from inside to outside.
+    pub(crate) fn slope(
         &self,
         window: &Window,
         strips: &Strips<'_>,
         node: usize,
         offset: f64,
-        half: f32,
-    ) -> f64 {
+    ) -> f32 {
         let (p, normal) = (strips.curve[node], strips.normals[node]);
         let place = |d: f64| window.feature(p + d * normal).map(|f| color(&f));
         let (Some(inner), Some(outer)) = (place(offset - 1.0), place(offset + 1.0)) else {
@@ -145,7 +150,7 @@ impl Edges {
             inner[1] - outer[1],
             inner[2] - outer[2],
         ];
-        strength(0.5 * dot(&across, &self.directions[node]), half)
+        0.5 * dot(&across, &self.directions[node])
     }
 
     /// Directions follow those at a later curve.

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::body::{Body, Frame, Seen, Step};
-use crate::correct::{ALL, Band, EDGES, Offsets, Pass, moved, offsets, simple};
+use crate::correct::{Band, Offsets, Pass, moved, offsets, simple};
 use crate::edges::half;
 use crate::evidence::{Evidence, Look};
 use crate::predict::{Flowed, Prediction, flowed};
@@ -343,7 +343,7 @@ impl Body {
 
     /// Offsets, those of nodes that were not seen with little weight.
     fn offsets(&self, look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option<Offsets> {
-        let mut found = offsets(look, strips, band, ALL)?;
+        let mut found = offsets(look, strips, band, crate::correct::all())?;
         found
             .held
             .iter_mut()
@@ -359,6 +359,6 @@ const FINE: Band = Band { tether: 1.5, half: 2 };
 /// A curve placed on its edge, where it has one.
 fn fine(look: Look<'_>, curve: &[DVec2], radius: f64) -> Vec<DVec2> {
     let strips = Strips::of(curve, radius);
-    let found = offsets(look, &strips, FINE, EDGES);
+    let found = offsets(look, &strips, FINE, crate::correct::edges_only());
     found.map_or_else(|| curve.to_vec(), |found| moved(&strips, &found, Pass::Full))
 }

@@ -11,11 +11,11 @@ use crate::correct::calmed;
 use crate::ring;
 
 /// Standard error of a node that is seen well, and least quality. Cells.
-const NOISE: f64 = 0.3;
-const LEAST_QUALITY: f64 = 0.15;
+#[allow(non_snake_case)] fn NOISE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("NOISE").ok().and_then(|v| v.parse().ok()).unwrap_or(0.3)) }
+#[allow(non_snake_case)] fn LEAST_QUALITY() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("LEAST_QUALITY").ok().and_then(|v| v.parse().ok()).unwrap_or(0.15)) }
 
 /// How fast the shape follows nodes that are seen, and without the shortest waves.
-const FOLLOW: f64 = 0.3;
+#[allow(non_snake_case)] fn FOLLOW() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("FOLLOW").ok().and_then(|v| v.parse().ok()).unwrap_or(0.3)) }
 const STIFF: f64 = 0.015;
 
 /// Deviation of nodes from the shape to begin with and at least, in radii; how fast it is learnt; which share of nodes
@@ -123,7 +123,7 @@ impl Shape {
         let curve = calmed(curve, &shape);
         let usual = (self.deviation * ring::radius(&curve)).powi(2);
         let between = |i: usize| {
-            let noise = (NOISE / (quality[i] + LEAST_QUALITY)).powi(2);
+            let noise = (NOISE() / (quality[i] + LEAST_QUALITY())).powi(2);
             curve[i].lerp(shape[i], noise / (noise + usual))
         };
         Kept {
@@ -153,7 +153,7 @@ impl Shape {
             laid.turn = laid.turn.normalize_or(DVec2::X);
         }
         for ((node, p), q) in self.nodes.iter_mut().zip(curve).zip(quality) {
-            *node = laid.at(*node).lerp(*p, FOLLOW * q);
+            *node = laid.at(*node).lerp(*p, FOLLOW() * q);
         }
         self.nodes = ring::calmed(&self.nodes, STIFF);
         let off = off.min(MORE * self.deviation);
