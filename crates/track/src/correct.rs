@@ -224,11 +224,12 @@ pub(crate) fn moved(strips: &Strips<'_>, found: &Offsets, pass: Pass) -> Vec<DVe
     }
 }
 
-/// A curve without crossings, as many nodes at equal distances; the first node where it was, or the nearest to it.
-pub(crate) fn simple(curve: &[DVec2], count: usize) -> Option<(Vec<DVec2>, Option<Vec<f64>>)> {
+/// A curve without crossings, as many nodes at equal distances; the first at a place between nodes, or where there
+/// were crossings the nearest to the first node.
+pub(crate) fn simple(curve: &[DVec2], count: usize, first: f64) -> Option<(Vec<DVec2>, Option<Vec<f64>>)> {
     let crossed = outline::crossings(curve, true).map_or(true, |found| !found.is_empty());
     if !crossed {
-        let (points, places) = ring::evenly(curve, count);
+        let (points, places) = ring::evenly_from(curve, count, first);
         return Some((points, Some(places)));
     }
     let resolved = outline::resolve(curve, 1.0).ok()?;

@@ -322,7 +322,7 @@ impl Body {
         let mut quality = self.quality_of(&after);
         let kept = self.shape.kept(&next, &mut quality, &self.quality);
         (seen.strays, seen.off) = (kept.strays, kept.off);
-        if let Some((next, places)) = simple(&kept.curve, n) {
+        if let Some((next, places)) = simple(&kept.curve, n, self.shape.slid(&kept.curve, &quality).unwrap_or(0.0)) {
             seen.evidence = Evidence::of(look, &Strips::of(&next, radius));
             (seen.curve, seen.places) = (next, places);
         }
