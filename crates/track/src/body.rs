@@ -23,12 +23,12 @@ const NODES: [f64; 2] = [60.0, 320.0];
 
 /// What is remembered of the first frame; how fast tables, profiles and edges follow.
 const FIRST: f32 = 0.3;
-#[allow(non_snake_case)] fn LEARN() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("LEARN").ok().and_then(|v| v.parse().ok()).unwrap_or(0.1)) }
-#[allow(non_snake_case)] fn LEARN_PROFILE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("LEARN_PROFILE").ok().and_then(|v| v.parse().ok()).unwrap_or(0.15)) }
-#[allow(non_snake_case)] fn LEARN_EDGES() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("LEARN_EDGES").ok().and_then(|v| v.parse().ok()).unwrap_or(0.1)) }
+const LEARN: f64 = 0.1;
+const LEARN_PROFILE: f64 = 0.15;
+const LEARN_EDGES: f64 = 0.1;
 
 /// How fast the reference of evidence follows, falls while nothing is seen, and its least.
-#[allow(non_snake_case)] fn REFERENCE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("REFERENCE").ok().and_then(|v| v.parse().ok()).unwrap_or(0.2)) }
+const REFERENCE: f64 = 0.2;
 const FORGET: f64 = 0.97;
 const LEAST_REFERENCE: f64 = 0.05;
 
@@ -337,11 +337,11 @@ impl Body {
             |rate: f64| -> Vec<f32> { quality.iter().map(|q| (rate * sure * q) as f32).collect() };
         let tables = Tables::learnt(window, &self.palette, &strips, &quality, MARGIN);
         self.running
-            .learn(&tables, &shares(LEARN()), (LEARN() * sure) as f32);
+            .learn(&tables, &shares(LEARN), (LEARN * sure) as f32);
         self.profiles
-            .learn(&Profiles::learnt(window, &strips), &shares(LEARN_PROFILE()));
-        self.edges.learn(window, &strips, &shares(LEARN_EDGES()));
-        self.reference += REFERENCE() * sure * (evidence.mean - self.reference);
+            .learn(&Profiles::learnt(window, &strips), &shares(LEARN_PROFILE));
+        self.edges.learn(window, &strips, &shares(LEARN_EDGES));
+        self.reference += REFERENCE * sure * (evidence.mean - self.reference);
         self.reference = self.reference.max(LEAST_REFERENCE);
         for ((reference, m), q) in self
             .node_reference
@@ -350,7 +350,7 @@ impl Body {
             .zip(&quality)
         {
             if let Some(m) = m {
-                *reference += REFERENCE() * q * (m - *reference);
+                *reference += REFERENCE * q * (m - *reference);
             }
         }
         let bad = quality.iter().filter(|q| **q < 0.5).count();

@@ -11,10 +11,10 @@ use crate::ring;
 use crate::tables::Strips;
 
 /// Weight of the region and of the profile, and the most that a profile may speak against a place.
-#[allow(non_snake_case)] fn REGION() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("REGION").ok().and_then(|v| v.parse().ok()).unwrap_or(0.5)) }
+const REGION: f64 = 0.5;
 /// Weight of an edge.
-#[allow(non_snake_case)] fn EDGE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("EDGE").ok().and_then(|v| v.parse().ok()).unwrap_or(6.0)) }
-#[allow(non_snake_case)] fn PROFILE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("PROFILE").ok().and_then(|v| v.parse().ok()).unwrap_or(1.0)) }
+const EDGE: f64 = 6.0;
+const PROFILE: f64 = 1.0;
 const WORST: f64 = 3.0;
 
 /// Degrees of freedom of the tether: how soon it lets go.
@@ -49,8 +49,21 @@ pub(crate) struct Weights {
     sharp: bool,
 }
 
-pub(crate) fn all() -> Weights { Weights { region: REGION(), profile: PROFILE(), edge: EDGE(), sharp: false } }
-pub(crate) fn edges_only() -> Weights { Weights { region: 0.0, profile: 0.0, edge: EDGE(), sharp: true } }
+/// To find where the curve has gone.
+pub(crate) const ALL: Weights = Weights {
+    region: REGION,
+    profile: PROFILE,
+    edge: EDGE,
+    sharp: false,
+};
+
+/// To place it, once it is found: the region would push it off the middle of a strong edge.
+pub(crate) const EDGES: Weights = Weights {
+    region: 0.0,
+    profile: 0.0,
+    edge: EDGE,
+    sharp: true,
+};
 
 /// An offset of each node, and how firmly it is known: the curvature of its cost.
 #[derive(Debug, Clone)]
@@ -60,7 +73,12 @@ pub(crate) struct Offsets {
 }
 
 /// The best offsets; None where there is no path.
-pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band, weights: Weights) -> Option<Offsets> {
+pub(crate) fn offsets(
+    look: Look<'_>,
+    strips: &Strips<'_>,
+    band: Band,
+    weights: Weights,
+) -> Option<Offsets> {
     let n = strips.curve.len();
     let half = band.half.cast_signed();
     let states = 2 * band.half + 1;
@@ -226,7 +244,11 @@ pub(crate) fn moved(strips: &Strips<'_>, found: &Offsets, pass: Pass) -> Vec<DVe
 
 /// A curve without crossings, as many nodes at equal distances; the first at a place between nodes, or where there
 /// were crossings the nearest to the first node.
-pub(crate) fn simple(curve: &[DVec2], count: usize, first: f64) -> Option<(Vec<DVec2>, Option<Vec<f64>>)> {
+pub(crate) fn simple(
+    curve: &[DVec2],
+    count: usize,
+    first: f64,
+) -> Option<(Vec<DVec2>, Option<Vec<f64>>)> {
     let crossed = outline::crossings(curve, true).map_or(true, |found| !found.is_empty());
     if !crossed {
         let (points, places) = ring::evenly_from(curve, count, first);

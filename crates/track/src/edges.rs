@@ -128,7 +128,14 @@ impl Edges {
     }
 
     /// How much of its edge a node has so far out.
-    pub(crate) fn at(&self, window: &Window, strips: &Strips<'_>, node: usize, offset: f64, half: f32) -> f64 {
+    pub(crate) fn at(
+        &self,
+        window: &Window,
+        strips: &Strips<'_>,
+        node: usize,
+        offset: f64,
+        half: f32,
+    ) -> f64 {
         strength(self.slope(window, strips, node, offset), half)
     }
 

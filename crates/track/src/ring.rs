@@ -135,7 +135,11 @@ pub(crate) fn calmed(curve: &[DVec2], stiff: f64) -> Vec<DVec2> {
 }
 
 /// As [`evenly`], the first at a place between nodes.
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "places between nodes")]
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "places between nodes"
+)]
 pub(crate) fn evenly_from(curve: &[DVec2], count: usize, first: f64) -> (Vec<DVec2>, Vec<f64>) {
     let n = curve.len();
     let turned = first.rem_euclid(n as f64);

@@ -11,11 +11,11 @@ use crate::correct::calmed;
 use crate::ring;
 
 /// Standard error of a node that is seen well, and least quality. Cells.
-#[allow(non_snake_case)] fn NOISE() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("NOISE").ok().and_then(|v| v.parse().ok()).unwrap_or(0.3)) }
-#[allow(non_snake_case)] fn LEAST_QUALITY() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("LEAST_QUALITY").ok().and_then(|v| v.parse().ok()).unwrap_or(0.15)) }
+const NOISE: f64 = 0.3;
+const LEAST_QUALITY: f64 = 0.15;
 
 /// How fast the shape follows nodes that are seen, and without the shortest waves.
-#[allow(non_snake_case)] fn FOLLOW() -> f64 { static V: std::sync::OnceLock<f64> = std::sync::OnceLock::new(); *V.get_or_init(|| std::env::var("FOLLOW").ok().and_then(|v| v.parse().ok()).unwrap_or(0.3)) }
+const FOLLOW: f64 = 0.3;
 const STIFF: f64 = 0.015;
 
 /// Deviation of nodes from the shape to begin with and at least, in radii; how fast it is learnt; which share of nodes
@@ -76,7 +76,9 @@ impl Shape {
 
     /// Whether too much is hidden for the rest to tell the size.
     fn is_hidden(&self, quality: &[f64]) -> bool {
-        let hidden = (0..quality.len()).filter(|&i| quality[i] <= 0.0 || self.astray[i] > 0).count();
+        let hidden = (0..quality.len())
+            .filter(|&i| quality[i] <= 0.0 || self.astray[i] > 0)
+            .count();
         hidden as f64 > FEW * quality.len() as f64
     }
 
@@ -88,7 +90,7 @@ impl Shape {
             .map(|(now, before)| now * before + UNSEEN)
             .collect();
         let mut motion = similarity(&self.nodes, curve, &weights).unwrap_or(Similarity::STILL);
-                if self.is_hidden(quality) {
+        if self.is_hidden(quality) {
             motion.turn = motion.turn.normalize_or(DVec2::X);
         }
         self.nodes.iter().map(|p| motion.at(*p)).collect()
@@ -128,7 +130,7 @@ impl Shape {
         let curve = calmed(curve, &shape);
         let usual = (self.deviation * ring::radius(&curve)).powi(2);
         let between = |i: usize| {
-            let noise = (NOISE() / (quality[i] + LEAST_QUALITY())).powi(2);
+            let noise = (NOISE / (quality[i] + LEAST_QUALITY)).powi(2);
             curve[i].lerp(shape[i], noise / (noise + usual))
         };
         Kept {
@@ -140,7 +142,11 @@ impl Shape {
 
     /// By how many nodes a curve's nodes have slid along it, against the shape: the turn of its nodes by which it lies
     /// best on the shape. None where no turn is clearly better than another, as on a circle.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few nodes")]
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a few nodes"
+    )]
     pub(crate) fn slid(&self, curve: &[DVec2], quality: &[f64]) -> Option<f64> {
         let n = curve.len();
         let most = SLID.min(n / 8).cast_signed();
@@ -149,7 +155,8 @@ impl Shape {
             let from = slid.rem_euclid(n.cast_signed()).unsigned_abs();
             let turned: Vec<DVec2> = (0..n).map(|i| curve[(i + from) % n]).collect();
             let motion = ring::laid(&self.nodes, &turned, &weights);
-            let squares = (0..n).map(|i| weights[i] * motion.at(self.nodes[i]).distance_squared(turned[i]));
+            let squares =
+                (0..n).map(|i| weights[i] * motion.at(self.nodes[i]).distance_squared(turned[i]));
             squares.sum::<f64>() / weights.iter().sum::<f64>()
         };
         let all: Vec<f64> = (-most..=most).map(misfit).collect();
@@ -187,7 +194,7 @@ impl Shape {
             laid.turn = laid.turn.normalize_or(DVec2::X);
         }
         for ((node, p), q) in self.nodes.iter_mut().zip(curve).zip(quality) {
-            *node = laid.at(*node).lerp(*p, FOLLOW() * q);
+            *node = laid.at(*node).lerp(*p, FOLLOW * q);
         }
         self.nodes = ring::calmed(&self.nodes, STIFF);
         let off = off.min(MORE * self.deviation);
