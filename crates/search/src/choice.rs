@@ -10,7 +10,7 @@ use crate::along::Polygon;
 use crate::evidence::{Support, on_edge, support};
 use crate::find::{Found, Search, Searched};
 use crate::flood::{flood, purity};
-use crate::near::near;
+use crate::near::Tethered;
 use crate::rules::Rules;
 use crate::view::View;
 use crate::within::{WIDTH, free, within};
@@ -61,6 +61,7 @@ const LEAST_PART: f64 = 4.0;
 struct Choice<'a> {
     view: &'a View,
     rules: &'a Rules,
+    tethered: Tethered<'a>,
     found: Vec<Found>,
     taken: usize,
 }
@@ -71,6 +72,7 @@ pub(crate) fn about(pixels: &dyn Pixels, start: &Polygon, rules: &Rules) -> Opti
     let mut choice = Choice {
         view: &view,
         rules,
+        tethered: Tethered::new(&view, rules),
         found: Vec::new(),
         taken: 0,
     };
@@ -121,7 +123,7 @@ impl Choice<'_> {
 
     /// The band about the start, or what lies beyond its limits.
     fn beside(&mut self) -> Option<()> {
-        let usual = near(self.view, self.rules, self.rules.tether)?;
+        let usual = self.tethered.best(self.rules.tether)?;
         let own = self.add(Search::Near, &usual.points);
         if usual.limited > LIMITED {
             let other = self.add(
@@ -139,7 +141,7 @@ impl Choice<'_> {
     /// That band with little of a tether.
     fn loose(&mut self) {
         let own = self.own();
-        if let Some(loose) = near(self.view, self.rules, LOOSE * self.rules.tether) {
+        if let Some(loose) = self.tethered.best(LOOSE * self.rules.tether) {
             let whole = self.add(Search::Loose, &loose.points).whole();
             if whole > LOOSE_SURE * self.rules.sure && whole > own.whole() + BETTER {
                 self.take_last();
@@ -204,7 +206,7 @@ impl Choice<'_> {
             return;
         }
         let own = self.own();
-        if let Some(close) = near(self.view, self.rules, CLOSE * self.rules.tether) {
+        if let Some(close) = self.tethered.best(CLOSE * self.rules.tether) {
             let other = self.add(Search::Close, &close.points);
             let exact = |at: usize| on_edge(self.view, &self.found[at].window);
             let more = own.closed >= other.closed + MORE_CLOSED

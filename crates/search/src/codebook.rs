@@ -46,27 +46,21 @@ impl Codebook {
             .map(|&at| features[at])
             .collect();
         let centers = k_means(&sample);
-        let classes = features.iter().map(|one| nearest(&centers, one).0);
-        Self {
-            classes: classes.collect(),
-        }
+        let mut classes = vec![0; features.len()];
+        sort(&features, &centers, &mut classes);
+        Self { classes }
     }
 
-    /// The logarithm of how much likelier each class is inside than outside, cut at ±2.
-    pub(crate) fn ratios(
-        &self,
-        inside: impl Fn(usize) -> bool,
-        outside: impl Fn(usize) -> bool,
-    ) -> Ratios {
-        let mut counts = [[ADDED; CLASSES]; 2];
+    /// The logarithm of how much likelier each class is inside than outside, cut at ±2; `side` says of each pixel
+    /// whether it is inside, None where it does not count.
+    pub(crate) fn ratios(&self, side: impl Fn(usize) -> Option<bool>) -> Ratios {
+        // inside, outside, and what does not count
+        let mut numbers = [[0_u32; CLASSES]; 3];
         for (at, &class) in self.classes.iter().enumerate() {
-            let class = usize::from(class);
-            if inside(at) {
-                counts[0][class] += 1.0;
-            } else if outside(at) {
-                counts[1][class] += 1.0;
-            }
+            let side = side(at).map_or(2, |inside| usize::from(!inside));
+            numbers[side][usize::from(class)] += 1;
         }
+        let counts = numbers.map(|side| side.map(|number| f64::from(number) + ADDED));
         let share = |side: usize, class: usize| {
             let total: f64 = counts[side].iter().sum();
             (1.0 - UNIFORM) * counts[side][class] / total + UNIFORM / CLASSES as f64
@@ -120,26 +114,49 @@ fn apart(a: &Features, b: &Features) -> f32 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
 }
 
-/// The nearest middle and its squared distance.
-fn nearest(centers: &[Features], one: &Features) -> (u8, f32) {
-    let mut best = (0, f32::INFINITY);
-    for (class, center) in (0_u8..).zip(centers) {
-        let distance = apart(one, center);
-        if distance < best.1 {
-            best = (class, distance);
+/// Pixels that are sorted at once.
+const LANES: usize = 16;
+
+lanes::wide! {
+    /// The class of the nearest middle of each pixel, the first of equals.
+    #[allow(clippy::cast_possible_truncation, reason = "classes need few digits")]
+    fn sort(features: &[Features], centers: &[Features], classes: &mut [u8]) {
+        for (pixels, classes) in features.chunks(LANES).zip(classes.chunks_mut(LANES)) {
+            // channel by channel
+            let mut channels = [[0.0_f32; LANES]; 4];
+            for (at, pixel) in pixels.iter().enumerate() {
+                for (channel, value) in channels.iter_mut().zip(pixel) {
+                    channel[at] = *value;
+                }
+            }
+            let [a, b, c, d] = &channels;
+            let mut nearest = [f32::INFINITY; LANES];
+            let mut found = [0_u32; LANES];
+            for (class, [e, f, g, h]) in (0_u32..).zip(centers) {
+                for at in 0..LANES {
+                    let (a, b, c, d) = (a[at] - e, b[at] - f, c[at] - g, d[at] - h);
+                    let apart = a * a + b * b + c * c + d * d;
+                    let nearer = apart < nearest[at];
+                    nearest[at] = if nearer { apart } else { nearest[at] };
+                    found[at] = if nearer { class } else { found[at] };
+                }
+            }
+            for (to, class) in classes.iter_mut().zip(found) {
+                *to = class as u8;
+            }
         }
     }
-    best
 }
 
 /// Lloyd's rounds from starts drawn far from each other (k-means++, \[arthur07\]), the same every
 /// time.
 fn k_means(sample: &[Features]) -> Vec<Features> {
     let mut centers = starts(sample);
+    let mut classes = vec![0; sample.len()];
     for _ in 0..ROUNDS {
+        sort(sample, &centers, &mut classes);
         let mut sums = vec![([0.0_f32; 4], 0.0_f32); centers.len()];
-        for one in sample {
-            let (class, _) = nearest(&centers, one);
+        for (one, &class) in sample.iter().zip(&classes) {
             let (sum, count) = &mut sums[usize::from(class)];
             for (sum, value) in sum.iter_mut().zip(one) {
                 *sum += value;

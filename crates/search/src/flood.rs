@@ -7,9 +7,9 @@
 use field::Grid;
 use glam::DVec2;
 
-use crate::along::smoothed;
 use crate::edges::blurred;
 use crate::rules::Rules;
+use crate::smooth::smoothed;
 use crate::view::View;
 use crate::within::{WIDTH, free};
 

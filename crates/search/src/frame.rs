@@ -70,30 +70,27 @@ impl Frame {
         let count = if color { 3 } else { 1 };
         let mut channels = vec![Grid::zeros((height, width)); count];
         let mut known = Grid::zeros((height, width));
-        // sums of one row of the window over columns of the picture, one channel after the other and then the weight
+        // rows of the picture, each resampled along x once: three channels and the weight
+        let mut made: Vec<(usize, Vec<[f64; 4]>)> = Vec::new();
         let mut sums = vec![[0.0_f64; 4]; width];
         let mut empty = false;
         for y in 0..height {
             sums.fill([0.0; 4]);
-            for &(row, row_weight) in &rows.taps[y] {
-                for (sum, taps) in sums.iter_mut().zip(&columns.taps) {
-                    for &(column, column_weight) in taps {
-                        if pixels.valid().is_some_and(|valid| !valid[[row, column]]) {
-                            continue;
-                        }
-                        let weight = row_weight * column_weight;
-                        let values = if color {
-                            pixels.color(column, row)
-                        } else {
-                            [pixels.level(column, row), 0.0, 0.0]
-                        };
-                        if values.iter().any(|value| !value.is_finite()) {
-                            continue;
-                        }
-                        for (sum, value) in sum.iter_mut().zip(values) {
-                            *sum += weight * value;
-                        }
-                        sum[3] += weight;
+            for &(row, weight) in &rows.taps[y] {
+                if made.iter().all(|(made, _)| *made != row) {
+                    if made.len() == KEPT {
+                        made.rotate_left(1);
+                        made.truncate(KEPT - 1);
+                    }
+                    made.push((row, columns.resampled(pixels, row)));
+                }
+                let values = made.iter().find(|(made, _)| *made == row);
+                for (sums, values) in sums
+                    .iter_mut()
+                    .zip(values.iter().flat_map(|(_, list)| list))
+                {
+                    for (sum, value) in sums.iter_mut().zip(values) {
+                        *sum += weight * value;
                     }
                 }
             }
@@ -233,6 +230,9 @@ fn to_percent(grid: &mut Grid, known: &Grid) -> f64 {
     }
 }
 
+/// Rows that are kept for the next row of the window: the last two of one are the first of the next.
+const KEPT: usize = 3;
+
 /// Which pixels of one line of the picture make each pixel of one line of the window.
 struct Line {
     /// Pixels and their weights, which sum to 1.
@@ -289,5 +289,39 @@ impl Line {
             taps: (0..count).map(taps).collect(),
             within: (0..count).map(within).collect(),
         }
+    }
+
+    /// A row of the picture along this line: sums of three channels, of a grey one the first, and of the weights of the
+    /// pixels that count.
+    fn resampled(&self, pixels: &dyn Pixels, row: usize) -> Vec<[f64; 4]> {
+        let ends = self.taps.iter().flatten().map(|(column, _)| *column);
+        let first = ends.clone().min().unwrap_or(0);
+        let last = ends.max().unwrap_or(0);
+        let color = pixels.is_color();
+        let valid = pixels.valid();
+        let values: Vec<[f64; 4]> = (first..=last)
+            .map(|column| {
+                if valid.is_some_and(|valid| !valid[[row, column]]) {
+                    return [0.0; 4];
+                }
+                let [a, b, c] = if color {
+                    pixels.color(column, row)
+                } else {
+                    [pixels.level(column, row), 0.0, 0.0]
+                };
+                let finite = a.is_finite() && b.is_finite() && c.is_finite();
+                if finite { [a, b, c, 1.0] } else { [0.0; 4] }
+            })
+            .collect();
+        let sum = |taps: &Vec<(usize, f64)>| {
+            let mut sum = [0.0; 4];
+            for &(column, weight) in taps {
+                for (sum, value) in sum.iter_mut().zip(values[column - first]) {
+                    *sum += weight * value;
+                }
+            }
+            sum
+        };
+        self.taps.iter().map(sum).collect()
     }
 }
