@@ -18,6 +18,9 @@ use crate::within::{WIDTH, free, within};
 /// By how much a curve loose from the start, or along rays, must be closed better than the one about the start.
 const BETTER: f64 = 0.08;
 
+/// By how much a curve loose from the start must be closed better where the one about the start is closed itself.
+const MUCH_BETTER: f64 = 0.2;
+
 /// The tethers of a curve close to the start, and of one loose from it, as times of the usual one.
 const CLOSE: f64 = 10.0;
 const LOOSE: f64 = 0.3;
@@ -78,12 +81,13 @@ pub(crate) fn about(pixels: &dyn Pixels, start: &Polygon, rules: &Rules) -> Opti
     };
     choice.beside()?;
     let own = choice.own();
-    // beside the start there is already a closed edge, or one of a single polarity: stay
+    // beside the start there is already a closed edge, or one of a single polarity: stay. A curve that the band does
+    // not hold is not one beside the start.
+    let held = choice.found[0].search == Search::Near;
+    let one_polarity = own.polar > ONE_POLARITY * own.edge;
     let enough = own.whole() > rules.sure
-        || (own.closed > rules.unsure && own.edge > STRONG && own.polar > ONE_POLARITY * own.edge);
-    if !enough {
-        choice.loose();
-    }
+        || (held && own.closed > rules.unsure && own.edge > STRONG && one_polarity);
+    choice.loose(enough);
     // a part without an edge, though the rest has a strong one, may be cut off from the object by a corner of the start
     let cornered = enough && own.edge < own.closed - SLACK;
     if choice.taken == 0 && (!enough || cornered) {
@@ -138,12 +142,14 @@ impl Choice<'_> {
         Some(())
     }
 
-    /// That band with little of a tether.
-    fn loose(&mut self) {
+    /// That band with little of a tether; where the curve about the start is `enough`, only for one that is closed much
+    /// better.
+    fn loose(&mut self, enough: bool) {
         let own = self.own();
+        let better = if enough { MUCH_BETTER } else { BETTER };
         if let Some(loose) = self.tethered.best(LOOSE * self.rules.tether) {
             let whole = self.add(Search::Loose, &loose.points).whole();
-            if whole > LOOSE_SURE * self.rules.sure && whole > own.whole() + BETTER {
+            if whole > LOOSE_SURE * self.rules.sure && whole > own.whole() + better {
                 self.take_last();
             }
         }
