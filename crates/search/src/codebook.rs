@@ -9,7 +9,7 @@ use crate::frame::Frame;
 const CLASSES: usize = 24;
 
 /// Pixels that the classes are found from, at most.
-const SAMPLE: usize = 4000;
+const SAMPLE: usize = 12000;
 
 /// Rounds of moving the middles of the classes.
 const ROUNDS: usize = 12;
@@ -39,10 +39,10 @@ impl Codebook {
     pub(crate) fn of(frame: &Frame, counts: impl Fn(usize) -> bool) -> Self {
         let features = features(frame);
         let counted: Vec<usize> = (0..features.len()).filter(|&at| counts(at)).collect();
-        let stride = counted.len().div_ceil(SAMPLE).max(1);
+        let share = SAMPLE as f64 / counted.len().max(1) as f64;
         let sample: Vec<Features> = counted
             .iter()
-            .step_by(stride)
+            .filter(|&&at| share >= 1.0 || drawn(at, frame.dim()) < share)
             .map(|&at| features[at])
             .collect();
         let centers = k_means(&sample);
@@ -148,25 +148,26 @@ lanes::wide! {
     }
 }
 
-/// Lloyd's rounds from starts drawn far from each other (k-means++, \[arthur07\]), the same every
-/// time.
+/// Lloyd's rounds (\[lloyd82\]) from the means of parts. Nothing in it depends on the order of the sample, so that a
+/// picture that is turned has the same classes.
 fn k_means(sample: &[Features]) -> Vec<Features> {
     let mut centers = starts(sample);
     let mut classes = vec![0; sample.len()];
     for _ in 0..ROUNDS {
         sort(sample, &centers, &mut classes);
-        let mut sums = vec![([0.0_f32; 4], 0.0_f32); centers.len()];
+        let mut sums = vec![([0.0_f64; 4], 0.0_f64); centers.len()];
         for (one, &class) in sample.iter().zip(&classes) {
             let (sum, count) = &mut sums[usize::from(class)];
             for (sum, value) in sum.iter_mut().zip(one) {
-                *sum += value;
+                *sum += f64::from(*value);
             }
             *count += 1.0;
         }
         let mut moved = 0.0_f32;
         for (center, (sum, count)) in centers.iter_mut().zip(sums) {
             if count > 0.0 {
-                let mean = sum.map(|sum| sum / count);
+                #[allow(clippy::cast_possible_truncation, reason = "classes need few digits")]
+                let mean = sum.map(|sum| (sum / count) as f32);
                 moved = moved.max(apart(center, &mean));
                 *center = mean;
             }
@@ -178,33 +179,74 @@ fn k_means(sample: &[Features]) -> Vec<Features> {
     centers
 }
 
+/// The means of parts: the part that is spread most along a channel is cut there at its mean, again and again.
 fn starts(sample: &[Features]) -> Vec<Features> {
-    let mut centers = Vec::with_capacity(CLASSES);
-    let mut away = vec![f32::INFINITY; sample.len()];
-    let mut next = sample.first().copied();
-    while let Some(last) = next.take() {
-        centers.push(last);
-        let mut total = 0.0_f64;
-        for (away, one) in away.iter_mut().zip(sample) {
-            *away = away.min(apart(one, &last));
-            total += f64::from(*away);
-        }
-        if centers.len() == CLASSES || total <= 0.0 {
+    let mut parts: Vec<Part> = Part::of(sample.to_vec()).into_iter().collect();
+    while parts.len() < CLASSES {
+        let widest = (0..parts.len()).max_by(|&a, &b| parts[a].spread.total_cmp(&parts[b].spread));
+        let Some(widest) = widest.filter(|&at| parts[at].spread > 0.0) else {
             break;
-        }
-        let mut left = chance(centers.len() as u64) * total;
-        let chosen = away.iter().position(|away| {
-            left -= f64::from(*away);
-            left < 0.0
-        });
-        next = sample.get(chosen.unwrap_or(sample.len() - 1)).copied();
+        };
+        let Part {
+            pixels,
+            mean,
+            channel,
+            ..
+        } = parts.swap_remove(widest);
+        let (above, below) = pixels
+            .into_iter()
+            .partition(|one| f64::from(one[channel]) > mean[channel]);
+        parts.extend([above, below].into_iter().filter_map(Part::of));
     }
-    centers
+    #[allow(clippy::cast_possible_truncation, reason = "classes need few digits")]
+    let center = |part: &Part| part.mean.map(|value| value as f32);
+    parts.iter().map(center).collect()
 }
 
-/// The n-th number of splitmix64, in [0, 1).
-fn chance(n: u64) -> f64 {
-    let mut z = n.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+/// Some pixels.
+struct Part {
+    pixels: Vec<Features>,
+    mean: [f64; 4],
+    /// The sum of the squares of what they differ from their mean in one channel, the largest of all channels.
+    spread: f64,
+    channel: usize,
+}
+
+impl Part {
+    /// None of no pixel.
+    fn of(pixels: Vec<Features>) -> Option<Self> {
+        let count = pixels.len() as f64;
+        let mut mean = [0.0; 4];
+        for one in &pixels {
+            for (mean, value) in mean.iter_mut().zip(one) {
+                *mean += f64::from(*value) / count;
+            }
+        }
+        let spread = |channel: usize| -> f64 {
+            let away = pixels
+                .iter()
+                .map(|one| f64::from(one[channel]) - mean[channel]);
+            away.map(|away| away * away).sum()
+        };
+        let spreads: [f64; 4] = std::array::from_fn(spread);
+        let channel = (0..4).max_by(|&a, &b| spreads[a].total_cmp(&spreads[b]))?;
+        (count > 0.0).then_some(Self {
+            pixels,
+            mean,
+            spread: spreads[channel],
+            channel,
+        })
+    }
+}
+
+/// A number of a pixel from 0 to 1 (splitmix64), the same for the places that turning or mirroring the window about its
+/// middle leads it to.
+fn drawn(at: usize, (height, width): (usize, usize)) -> f64 {
+    let (x, y) = (
+        (2 * (at % width)).abs_diff(width - 1),
+        (2 * (at / width)).abs_diff(height - 1),
+    );
+    let mut z = ((x.min(y) as u64) << 32 | x.max(y) as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
     ((z ^ (z >> 31)) >> 11) as f64 / 2.0_f64.powi(53)

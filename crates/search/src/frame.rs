@@ -4,6 +4,8 @@
 //! area has a radius of about [`RADIUS`] pixels: what a search costs does not depend on the size
 //! of the picture, and little on that of the object.
 
+use std::ops::Range;
+
 use field::{Grid, Pixels};
 use glam::DVec2;
 
@@ -45,8 +47,9 @@ impl Frame {
         let scale = (RADIUS / (zoom * radius)).min(MOST_ENLARGED);
         let (low, high) = start.bounds();
         let around = DVec2::splat(margin * radius);
-        let corner = (low - around).floor() - 0.5;
-        let size = ((high + around - corner) * scale).ceil();
+        let size = ((high - low + 2.0 * around) * scale).ceil();
+        // about its middle, so that a picture that is turned has the same window
+        let corner = 0.5 * (low + high) - 0.5 * size / scale;
         Self::sampled(pixels, corner, scale, size)
     }
 
@@ -182,7 +185,7 @@ fn fill(channels: &mut [Grid], known: &Grid) {
     }
 }
 
-/// The least difference of neighbouring pixels that is not 0, on some lines of a part of a picture; 0
+/// The least difference of neighbouring pixels that is not 0, on some rows and columns of a part of a picture; 0
 /// where there is none.
 #[allow(
     clippy::cast_possible_truncation,
@@ -194,17 +197,26 @@ fn least_step(pixels: &dyn Pixels, corner: DVec2, size: DVec2) -> f64 {
     let range = |from: f64, size: f64, most: usize| {
         let from = from.clamp(0.0, (most - 1) as f64);
         let to = (from + size).clamp(0.0, most as f64);
-        (from as usize, to as usize)
+        from as usize..to as usize
     };
-    let (left, right) = range(corner.x, size.x, width);
-    let (top, bottom) = range(corner.y, size.y, height);
+    let columns = range(corner.x, size.x, width);
+    let rows = range(corner.y, size.y, height);
+    let some = |range: &Range<usize>| range.clone().step_by(range.len().div_ceil(16).max(1));
     let mut least = f64::INFINITY;
-    for y in (top..bottom).step_by((bottom - top).div_ceil(16).max(1)) {
-        for x in left + 1..right {
-            let step = (pixels.level(x, y) - pixels.level(x - 1, y)).abs();
-            if step > 0.0 && step.is_finite() {
-                least = least.min(step);
-            }
+    let mut see = |a: f64, b: f64| {
+        let step = (a - b).abs();
+        if step > 0.0 && step.is_finite() {
+            least = least.min(step);
+        }
+    };
+    for y in some(&rows) {
+        for x in columns.clone().skip(1) {
+            see(pixels.level(x, y), pixels.level(x - 1, y));
+        }
+    }
+    for x in some(&columns) {
+        for y in rows.clone().skip(1) {
+            see(pixels.level(x, y), pixels.level(x, y - 1));
         }
     }
     if least.is_finite() { least } else { 0.0 }
