@@ -187,16 +187,17 @@ fn starts(sample: &[Features]) -> Vec<Features> {
         let Some(widest) = widest.filter(|&at| parts[at].spread > 0.0) else {
             break;
         };
-        let Part {
-            pixels,
-            mean,
-            channel,
-            ..
-        } = parts.swap_remove(widest);
-        let (above, below) = pixels
-            .into_iter()
-            .partition(|one| f64::from(one[channel]) > mean[channel]);
-        parts.extend([above, below].into_iter().filter_map(Part::of));
+        let part = &parts[widest];
+        let above = |one: &Features| f64::from(one[part.channel]) > part.mean[part.channel];
+        let (above, below): (Vec<_>, Vec<_>) = part.pixels.iter().copied().partition(above);
+        match (Part::of(above), Part::of(below)) {
+            (Some(above), Some(below)) => {
+                parts[widest] = above;
+                parts.push(below);
+            }
+            // equal values, whose mean differs from them by its rounding
+            _ => parts[widest].spread = 0.0,
+        }
     }
     #[allow(clippy::cast_possible_truncation, reason = "classes need few digits")]
     let center = |part: &Part| part.mean.map(|value| value as f32);
@@ -256,4 +257,22 @@ fn drawn(at: usize, (height, width): (usize, usize)) -> f64 {
 pub(crate) fn unit(difference: [f64; 3]) -> Option<[f64; 3]> {
     let length = dot(difference, difference).sqrt();
     (length > 0.0).then(|| difference.map(|v| v / length))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_values_are_as_many_classes_whatever_their_mean_is_rounded_to() {
+        for count in [1, 3, 7, 1000, 12000] {
+            let one = [0.1_f32, 33.3, -7.7, 1e-3];
+            assert_eq!(k_means(&vec![one; count]).len(), 1);
+        }
+        let values = [0.1_f32, 33.3, 99.9];
+        let sample: Vec<Features> = (0..3000).map(|i| [values[i % 3], 0.0, 0.0, 0.7]).collect();
+        let mut centers: Vec<f32> = k_means(&sample).iter().map(|center| center[0]).collect();
+        centers.sort_by(f32::total_cmp);
+        assert_eq!(centers, values);
+    }
 }
