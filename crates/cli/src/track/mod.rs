@@ -1,5 +1,6 @@
 //! `snake track`: outlines followed through the frames of a sequence.
 
+mod along;
 mod course;
 mod film;
 mod flags;
