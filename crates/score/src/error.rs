@@ -33,6 +33,24 @@ pub enum ScoreError {
         /// What was given.
         got: f64,
     },
+    /// A cost that is no number.
+    #[error("costs must be finite, got {got} in row {} and column {}", at.0, at.1)]
+    Cost {
+        /// Row and column, from 0.
+        at: (usize, usize),
+        /// What was given.
+        got: f64,
+    },
+    /// A table of the lives of objects that does not fit what was seen of them.
+    #[error("the {whose} object {label} {message}")]
+    Lineage {
+        /// Found or true.
+        whose: &'static str,
+        /// Which object.
+        label: u32,
+        /// What does not fit.
+        message: String,
+    },
     /// Nodes that are no places.
     #[error(transparent)]
     Outline(#[from] OutlineError),

@@ -32,8 +32,10 @@
 //! | how far two outlines are apart | [`Agreement`] |
 //! | whether an outline lies outside or inside of the truth, to a fraction of a pixel | [`Deviation`] |
 //! | how well two images of labels agree | [`Instances`] |
+//! | how well objects are followed through a sequence | [`tracking`] |
 //! | distance from the truth along a normal, and whether a band holds it | [`along_normal`], [`calibration`] |
 //! | a picture whose truth is a formula | [`synthetic`] |
+//! | a sequence of frames whose truth is a formula | [`sequences`] |
 //! | area, axes, roundness and so on of one outline | [`Measures`], [`curvature_extremes`], [`GreyMeans`] |
 //!
 //! An *outline* is one closed polygon or several: each a list of nodes, the last joined to the first. A point is inside
@@ -62,7 +64,9 @@ mod instances;
 mod mask;
 mod measures;
 mod normal;
+pub mod sequences;
 pub mod synthetic;
+pub mod tracking;
 
 pub use agreement::Agreement;
 pub use border::border;

@@ -63,6 +63,7 @@ fn main() {
                     .unwrap();
             let used = dev.first().outlines[0].points.clone();
             let mut ious = vec![];
+            let mut ratios: Vec<f64> = vec![];
             let t = std::time::Instant::now();
             let mut loadtime = 0.0;
             let m0 = mask(masks[0]);
@@ -80,6 +81,17 @@ fn main() {
                 }
                 let o = &tracked.outlines[0];
                 let (outline, seen, conf, pred) = (&o.points, o.state, o.confidence, o.prediction);
+                if let Ok(dump) = std::env::var("DUMP") {
+                    use std::io::Write;
+                    let mut f = std::fs::OpenOptions::new()
+                        .create(true)
+                        .append(true)
+                        .open(format!("{dump}_{name}_{kind}.csv"))
+                        .unwrap();
+                    for p in outline {
+                        writeln!(f, "{},{},{}", ious.len() + 1, p.x, p.y).unwrap();
+                    }
+                }
                 let found = score::filled(&[&outline[..]], truth.dim());
                 let i = score::iou(&found, &truth).unwrap();
                 if verbose {
@@ -88,13 +100,18 @@ fn main() {
                         f.file_name().unwrap()
                     );
                 }
+                let area = |m: &ndarray::Array2<bool>| m.iter().filter(|v| **v).count() as f64;
+                ratios.push(area(&found) / area(&truth));
                 ious.push(i);
             }
             let mean = ious.iter().sum::<f64>() / ious.len() as f64;
             let min = ious.iter().copied().fold(1.0, f64::min);
             println!(
-                "{name:18} {kind} start {i0:.3} mean {mean:.3} last {:.3} min {min:.3}  {:.1} ms/frame",
+                "{name:18} {kind} start {i0:.3} mean {mean:.3} last {:.3} min {min:.3} area {:.3} {:.3} {:.3}  {:.1} ms/frame",
                 ious.last().unwrap(),
+                ratios[4],
+                ratios[ratios.len() / 2],
+                ratios.last().unwrap(),
                 1e3 * (t.elapsed().as_secs_f64() - loadtime) / ious.len() as f64
             );
         }

@@ -10,9 +10,14 @@ use crate::ring;
 use crate::tables::Strips;
 
 /// Weight of the region and of the profile, and the most that a profile may speak against a place.
-const REGION: f64 = 0.7;
-const PROFILE: f64 = 3.0;
+const REGION: f64 = 0.5;
+/// Weight of an edge.
+const EDGE: f64 = 6.0;
+const PROFILE: f64 = 1.0;
 const WORST: f64 = 3.0;
+
+/// Degrees of freedom of the tether: how soon it lets go.
+const TAIL: f64 = 2.0;
 
 /// Nodes two cells apart differ in their offsets by so many cells (σ).
 const SLANT: f64 = 0.6;
@@ -59,9 +64,7 @@ pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option
         let ratio = |d: isize| {
             // the cell between two places: half a cell beyond the nearer
             let place = strips.curve[i] + d as f64 * strips.normals[i];
-            look.window
-                .class(place, look.palette)
-                .map_or(0.0, |class| look.ratios.at(i, class))
+            look.ratio(i, place).unwrap_or(0.0)
         };
         // what the curve takes in when it goes out by d, and loses when it goes in
         let here = ratio(0);
@@ -77,13 +80,16 @@ pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option
         }
         for (k, cost) in row.iter_mut().enumerate() {
             let d = k as f64 - band.half as f64;
-            *cost = -REGION * sums[k] + 0.5 * (d / band.tether).powi(2);
+            *cost = -REGION * sums[k] + tail(d / band.tether);
             if let Some(profiles) = look.profiles {
                 let samples: Option<Vec<Feature>> = line[k..k + SAMPLES].iter().copied().collect();
                 let misfit = samples.map_or(WORST, |samples| {
                     (0.5 * profiles.misfit(i, &samples)).min(WORST)
                 });
                 *cost += PROFILE * misfit;
+            }
+            if let Some((edges, half)) = look.edges {
+                *cost -= EDGE * edges.at(look.window, strips, i, d + edges.offsets[i], half);
             }
             let [inner, outer] = strips.room[i];
             if -d > inner || d > 2.0 * outer {
@@ -141,6 +147,16 @@ pub(crate) const MODES: usize = 8;
 const OFFSETS: f64 = 0.8;
 const STIFF: f64 = 0.15;
 
+/// A curve without the shortest waves of its difference from a shape.
+pub(crate) fn calmed(curve: &[DVec2], shape: &[DVec2]) -> Vec<DVec2> {
+    let off: Vec<DVec2> = curve.iter().zip(shape).map(|(p, q)| *p - *q).collect();
+    ring::calmed(&off, STIFF)
+        .iter()
+        .zip(shape)
+        .map(|(off, q)| *off + *q)
+        .collect()
+}
+
 /// The curve moved by its offsets.
 pub(crate) fn moved(strips: &Strips<'_>, found: &Offsets, pass: Pass) -> Vec<DVec2> {
     let ways = |offsets: &[f64]| -> Vec<DVec2> {
@@ -178,7 +194,7 @@ pub(crate) fn moved(strips: &Strips<'_>, found: &Offsets, pass: Pass) -> Vec<DVe
                 .zip(ways(&smooth))
                 .map(|(p, way)| *p + way)
                 .collect();
-            ring::calmed(&curve, STIFF)
+            curve
         }
     }
 }
@@ -202,4 +218,9 @@ pub(crate) fn simple(curve: &[DVec2], count: usize) -> Option<(Vec<DVec2>, Optio
     })?;
     nodes.rotate_left(first);
     (nodes.len() >= 3).then(|| (ring::evenly(&nodes, count).0, None))
+}
+
+/// Half the square of a deviation where it is small, and a logarithm of it where it is large (Student's distribution).
+fn tail(z: f64) -> f64 {
+    TAIL * (0.5 * z * z / TAIL).ln_1p()
 }

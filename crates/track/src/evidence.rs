@@ -1,5 +1,8 @@
 //! What a frame says for a curve: whether what lies inside and outside, and across it, is what was learnt.
 
+use glam::DVec2;
+
+use crate::edges::Edges;
 use crate::palette::{Feature, Palette};
 use crate::profile::{HALF, Profiles, SAMPLES};
 use crate::tables::{Ratios, Strips};
@@ -21,6 +24,22 @@ pub(crate) struct Look<'a> {
     pub palette: &'a Palette,
     pub ratios: &'a Ratios,
     pub profiles: Option<&'a Profiles>,
+    /// Edges, and the slope of half an edge in this window.
+    pub edges: Option<(&'a Edges, f32)>,
+}
+
+/// What lies in another object speaks so much against this one.
+const OTHERS: f64 = -1.5;
+
+impl Look<'_> {
+    /// How much likelier a place is inside than outside, by the tables of a node; None where nothing is known.
+    pub(crate) fn ratio(&self, node: usize, place: DVec2) -> Option<f64> {
+        if self.window.is_other(place) {
+            return Some(OTHERS);
+        }
+        let class = self.window.class(place, self.palette)?;
+        Some(self.ratios.at(node, class))
+    }
 }
 
 /// Evidence of each node and the mean; about 1 at best.
@@ -54,8 +73,8 @@ impl Evidence {
             let mut d = 1.0;
             while d <= depth && (d <= room || d < 2.0) {
                 let place = strips.curve[node] + sign * d * strips.normals[node];
-                if let Some(class) = look.window.class(place, look.palette) {
-                    sum += look.ratios.at(node, class);
+                if let Some(ratio) = look.ratio(node, place) {
+                    sum += ratio;
                     count += 1.0;
                 }
                 d += 1.0;

@@ -38,8 +38,10 @@
 
 mod body;
 mod correct;
+mod edges;
 mod error;
 mod evidence;
+mod follow;
 mod options;
 mod palette;
 mod plane;
@@ -47,13 +49,17 @@ mod predict;
 mod profile;
 mod result;
 mod ring;
+mod seek;
+mod shape;
 mod start;
 mod tables;
 mod tracker;
 mod window;
 
+pub use body::State;
 pub use error::TrackError;
 pub use options::{Options, Start};
 pub use predict::Prediction;
-pub use result::{Event, Happening, Outline, State, Tracked};
+pub use result::{Event, Happening, Outline, Tracked};
+pub use start::overlap;
 pub use tracker::Tracker;

@@ -3,6 +3,7 @@
 use flow::{Pyramid, Rules, Similarity, carry, similarity};
 use glam::DVec2;
 
+use crate::correct::MODES;
 use crate::ring;
 use crate::window::{to_cells, to_pixels};
 
@@ -15,6 +16,15 @@ const INSIDE: f64 = 2.0;
 
 /// The most nodes that are followed.
 const NODES: usize = 80;
+
+/// Share of the motion of before, what is left of the way and of the turn, and of waves, in a frame.
+const OLD: f64 = 0.3;
+const AIR: f64 = 0.95;
+const TURN: f64 = 0.8;
+const WAVE: f64 = 0.5;
+
+/// Weight of points beside nodes that are not seen.
+const LEAST_WEIGHT: f64 = 0.05;
 
 /// The most a node may move otherwise than the object, in radii; σ of the smoothing in nodes of all.
 const STRAY: f64 = 0.3;
@@ -55,6 +65,30 @@ impl Motion {
         }
     }
 
+    /// It follows the way from one curve to the next, node by node.
+    pub(crate) fn learn(&mut self, before: &[DVec2], now: &[DVec2]) {
+        let even = vec![1.0; now.len()];
+        let motion = ring::laid(before, now, &even).about(ring::middle(before));
+        self.shift = AIR * (OLD * self.shift + (1.0 - OLD) * motion.shift);
+        let turn = OLD * self.turn + (1.0 - OLD) * motion.turn;
+        self.turn = DVec2::X.lerp(turn, TURN);
+        let waves: Vec<DVec2> = before
+            .iter()
+            .zip(now)
+            .map(|(a, b)| *b - motion.at(*a))
+            .collect();
+        let slow = ring::lowpass(&waves, MODES);
+        let waves = self.waves.iter_mut().zip(slow);
+        waves.for_each(|(wave, slow)| *wave = WAVE * *wave + 0.5 * WAVE * slow);
+    }
+
+    /// It goes on without being seen: its size stays, its waves die away.
+    pub(crate) fn coast(&mut self, fade: f64) {
+        self.shift *= fade;
+        self.turn = DVec2::X.lerp(self.turn.normalize_or(DVec2::X), fade);
+        self.waves.iter_mut().for_each(|wave| *wave *= WAVE);
+    }
+
     /// The curve a frame later.
     pub(crate) fn flown(&self, curve: &[DVec2]) -> Vec<DVec2> {
         let center = ring::middle(curve);
@@ -82,7 +116,13 @@ pub(crate) struct Flowed {
 }
 
 /// Follow a curve and what it encloses from one frame to the next.
-pub(crate) fn flowed(from: &Pyramid, to: &Pyramid, curve: &[DVec2], block: f64) -> Option<Flowed> {
+pub(crate) fn flowed(
+    from: &Pyramid,
+    to: &Pyramid,
+    curve: &[DVec2],
+    quality: &[f64],
+    block: f64,
+) -> Option<Flowed> {
     let n = curve.len();
     let radius = ring::radius(curve);
     let normals = ring::normals(curve);
@@ -101,7 +141,15 @@ pub(crate) fn flowed(from: &Pyramid, to: &Pyramid, curve: &[DVec2], block: f64) 
         .collect();
     let begun: Vec<DVec2> = followed.iter().map(|&i| points[i]).collect();
     let ended: Vec<DVec2> = followed.iter().filter_map(|&i| ends[i]).collect();
-    let rigid = similarity(&begun, &ended, &vec![1.0; begun.len()])?;
+    // what lies beside hidden nodes may be what hides them
+    let nearest = |p: DVec2| {
+        let far = |i: usize| curve[i].distance_squared(p);
+        (0..n)
+            .min_by(|&a, &b| far(a).total_cmp(&far(b)))
+            .map_or(1.0, |i| quality[i])
+    };
+    let weights: Vec<f64> = begun.iter().map(|p| LEAST_WEIGHT + nearest(*p)).collect();
+    let rigid = similarity(&begun, &ended, &weights)?;
     let share = followed.len() as f64 / points.len().max(1) as f64;
     let carried: Vec<DVec2> = curve.iter().map(|p| rigid.at(*p)).collect();
     // what is left beside the nodes, smoothed along the curve where it is known

@@ -2,18 +2,8 @@
 
 use glam::DVec2;
 
-use crate::Prediction;
-
-/// How an object is known in a frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum State {
-    /// It was seen.
-    Seen,
-    /// Part of it was seen: the rest goes on as the shape that is remembered.
-    Partly,
-    /// It was not seen and goes on as it was going.
-    Coasting,
-}
+use crate::body::State;
+use crate::predict::Prediction;
 
 /// An object in a frame.
 #[derive(Debug, Clone, PartialEq)]

@@ -157,10 +157,20 @@ pub(crate) fn evenly(curve: &[DVec2], count: usize) -> (Vec<DVec2>, Vec<f64>) {
         } else {
             0.0
         };
-        points.push(curve[at].lerp(curve[(at + 1) % n], share));
+        points.push(bent(curve, at, share));
         places.push(at as f64 + share);
     }
     (points, places)
+}
+
+/// A place between two nodes on the cubic through four (Catmull and Rom's).
+fn bent(curve: &[DVec2], at: usize, share: f64) -> DVec2 {
+    let n = curve.len();
+    let node = |k: usize| curve[(at + n + k - 1) % n];
+    let (a, b, c, d) = (node(0), node(1), node(2), node(3));
+    let t = share;
+    0.5 * (2.0 * b
+        + t * ((c - a) + t * ((2.0 * a - 5.0 * b + 4.0 * c - d) + t * (3.0 * (b - c) + d - a))))
 }
 
 /// Values of nodes at places between them.
@@ -203,4 +213,52 @@ pub(crate) fn spans(curve: &[DVec2], y: f64) -> Vec<[f64; 2]> {
         .chunks_exact(2)
         .map(|pair| [pair[0], pair[1]])
         .collect()
+}
+
+/// The least and the largest coordinates.
+pub(crate) fn bounds(points: &[DVec2]) -> (DVec2, DVec2) {
+    let start = (DVec2::splat(f64::INFINITY), DVec2::splat(f64::NEG_INFINITY));
+    points
+        .iter()
+        .fold(start, |(low, high), p| (low.min(*p), high.max(*p)))
+}
+
+/// Lines across a curve by which its share in a rectangle is measured.
+const LINES: usize = 64;
+
+/// Share of a curve's area that lies in a rectangle.
+pub(crate) fn share_within(curve: &[DVec2], low: DVec2, high: DVec2) -> f64 {
+    let (least, most) = bounds(curve);
+    if least.cmpge(low).all() && most.cmple(high).all() {
+        return 1.0;
+    }
+    let (mut within, mut all) = (0.0, 0.0);
+    for k in 0..LINES {
+        let y = least.y + (k as f64 + 0.5) / LINES as f64 * (most.y - least.y);
+        for [from, to] in spans(curve, y) {
+            all += to - from;
+            if y > low.y && y < high.y {
+                within += (to.min(high.x) - from.max(low.x)).max(0.0);
+            }
+        }
+    }
+    if all > 0.0 { within / all } else { 0.0 }
+}
+
+/// Places on a ring of length 1, one for each node in order, at places between nodes.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "places between nodes"
+)]
+pub(crate) fn turned(places: &[f64], between: &[f64]) -> Vec<f64> {
+    let n = places.len();
+    let one = |at: &f64| {
+        let share = at - at.floor();
+        let at = at.floor() as usize % n;
+        let (a, b) = (places[at], places[(at + 1) % n]);
+        let way = (b - a + 0.5).rem_euclid(1.0) - 0.5;
+        (a + share * way).rem_euclid(1.0)
+    };
+    between.iter().map(one).collect()
 }

@@ -2,12 +2,21 @@
 
 use fit::{Contour, Fit, FitError, Image, Options, Prepared};
 use glam::DVec2;
+use search::along::Polygon;
 
 use crate::Start;
 use crate::ring;
 
 /// A start that shares this much with the outline found about it is kept.
-const NEARLY: f64 = 0.9;
+const NEARLY: f64 = 0.95;
+
+/// A start lies on an edge if its own is at least this share of those so far beside it, in radii.
+const PEAK: f64 = 0.86;
+const BESIDE: f64 = 0.05;
+
+/// Points by which starts are compared with what is beside them, and the smoothing of their normals.
+const POINTS: usize = 200;
+const CALM: f64 = 4.0;
 
 /// Cells of the raster by which outlines are compared, each way.
 const RASTER: usize = 128;
@@ -27,17 +36,38 @@ pub(crate) fn begun(
     if rule == Start::Rough || start.points.len() < 3 {
         return Ok(found.contour.points);
     }
-    let sure = Fit::is_outline(&found);
-    let differs = overlap(&start.points, &found.contour.points) < NEARLY;
-    Ok(if sure && differs {
-        found.contour.points
-    } else {
-        own()
-    })
+    let taken = Fit::is_outline(&found)
+        && overlap(&start.points, &found.contour.points) < NEARLY
+        && !is_on_edge(image, start, options);
+    Ok(if taken { found.contour.points } else { own() })
+}
+
+/// Whether a start lies on an edge as it is drawn: whether there is as much of one on it as beside it.
+fn is_on_edge(image: &Image, start: &Contour, options: &Options) -> bool {
+    let closed = true;
+    let drawn = Polygon {
+        points: start.points.clone(),
+        closed,
+    }
+    .outwards();
+    let Some(searched) = search::find(image.pixels(), &drawn, &options.search) else {
+        return false;
+    };
+    let drawn = drawn.evenly(POINTS);
+    let normals = drawn.normals(CALM);
+    let radius = ring::radius(&drawn.points);
+    let edge = |offset: f64| {
+        let beside = drawn.points.iter().zip(&normals);
+        let points = beside
+            .map(|(p, normal)| *p + offset * radius * *normal)
+            .collect();
+        searched.support(&Polygon { points, closed }).edge
+    };
+    edge(0.0) >= PEAK * edge(-BESIDE).max(edge(BESIDE))
 }
 
 /// Intersection over union of two closed curves.
-pub(crate) fn overlap(a: &[DVec2], b: &[DVec2]) -> f64 {
+pub fn overlap(a: &[DVec2], b: &[DVec2]) -> f64 {
     let both = || a.iter().chain(b).copied();
     let low = both().fold(DVec2::INFINITY, DVec2::min);
     let high = both().fold(DVec2::NEG_INFINITY, DVec2::max);

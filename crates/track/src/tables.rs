@@ -67,6 +67,7 @@ impl Tables {
         window: &Window,
         palette: &Palette,
         strips: &Strips<'_>,
+        quality: &[f64],
         margin: f64,
     ) -> Self {
         let (n, k) = (strips.curve.len(), palette.len());
@@ -84,7 +85,7 @@ impl Tables {
                     if let Some(class) =
                         window.class(strips.curve[i] + side * d * strips.normals[i], palette)
                     {
-                        counts[i * k + usize::from(class)] += 1.0;
+                        counts[i * k + usize::from(class)] += quality[i] as f32;
                     }
                     d += 1.0;
                 }
@@ -177,6 +178,14 @@ impl Tables {
             }
         }
         Ratios { k, ratios }
+    }
+
+    /// The same by the tables of all nodes together.
+    pub(crate) fn pooled_ratios(&self) -> Vec<f64> {
+        let unseen = UNSEEN / self.pooled[0].len() as f32;
+        let both = self.pooled[0].iter().zip(&self.pooled[1]);
+        both.map(|(a, b)| f64::from(((a + unseen) / (b + unseen)).ln().clamp(-MOST, MOST)))
+            .collect()
     }
 
     /// The same for other nodes, at places between these.

@@ -6,8 +6,9 @@ use glam::DVec2;
 use ndarray::Array2;
 
 use crate::body::{Body, Frame, Step};
+use crate::ring;
 use crate::start::begun;
-use crate::{Event, Happening, Options, Outline, Prediction, TrackError, Tracked};
+use crate::{Event, Happening, Options, Outline, Prediction, State, TrackError, Tracked};
 
 /// How often a frame is halved for flow.
 const SIZES: usize = 5;
@@ -30,6 +31,7 @@ struct Object {
     id: u32,
     parent: Option<u32>,
     body: Body,
+    state: State,
     /// For how many frames it was not seen.
     unseen: u32,
 }
@@ -109,54 +111,62 @@ impl Tracker {
             pyramid: &pyramid,
             before: Some(&self.before),
         };
-        let bodies: Vec<Body> = self
-            .objects
+        let bodies: Vec<&Body> = self.objects.iter().map(|object| &object.body).collect();
+        let threads = self.options.threads;
+        let mut predicted = Vec::with_capacity(bodies.len());
+        fit::in_order(
+            &bodies,
+            threads,
+            |body| body.predict(now),
+            |_, answer| predicted.push(answer),
+        );
+        let expected: Vec<Vec<DVec2>> = bodies
             .iter()
-            .map(|object| object.body.clone())
+            .zip(&predicted)
+            .map(|(body, predicted)| body.to_pixels(predicted.expected()))
             .collect();
         let mut followed = Vec::with_capacity(bodies.len());
-        let work = |body: &Body| {
-            let mut body = body.clone();
-            let step = body.next(now);
+        let work = |&index: &usize| {
+            let mut body = bodies[index].clone();
+            let step = body.follow(now, &predicted[index], &beside(&expected, index));
             (body, step)
         };
-        fit::in_order(&bodies, self.options.threads, work, |_, answer| {
-            followed.push(answer)
-        });
+        let order: Vec<usize> = (0..bodies.len()).collect();
+        fit::in_order(&order, threads, work, |_, answer| followed.push(answer));
         let mut tracked = Tracked {
             frame: self.frame,
             outlines: Vec::new(),
             events: Vec::new(),
         };
-        let mut events = Vec::new();
         for (object, (body, step)) in self.objects.iter_mut().zip(followed) {
             object.body = body;
-            let event = |what, confidence| Event {
-                frame: self.frame,
-                id: object.id,
-                what,
-                confidence,
+            let sure = step.confidence.clamp(0.0, 1.0);
+            let (was, is) = (object.state, step.state);
+            object.state = is;
+            let mut say = |what, confidence| {
+                tracked.events.push(Event {
+                    frame: self.frame,
+                    id: object.id,
+                    what,
+                    confidence,
+                });
             };
-            match (object.unseen, step.seen) {
-                (0, false) => events.push(event(
-                    Happening::Hidden,
-                    1.0 - step.confidence.clamp(0.0, 1.0),
-                )),
-                (1.., true) => {
-                    events.push(event(Happening::Found, step.confidence.clamp(0.0, 1.0)))
-                }
-                _ => {}
+            if was != State::Left && is == State::Left {
+                say(Happening::Left, 1.0);
+            } else if was.is_seen() && is == State::Coasting {
+                say(Happening::Hidden, 1.0 - sure);
+            } else if !was.is_seen() && is.is_seen() {
+                say(Happening::Found, sure);
             }
-            object.unseen = if step.seen { 0 } else { object.unseen + 1 };
+            object.unseen = if is.is_seen() { 0 } else { object.unseen + 1 };
             if object.unseen > self.options.patience {
-                events.push(event(Happening::Lost, 1.0));
-            } else {
+                say(Happening::Lost, 1.0);
+            } else if is != State::Left {
                 tracked.outlines.push(object.outline(&step));
             }
         }
         self.objects
             .retain(|object| object.unseen <= self.options.patience);
-        tracked.events = events;
         self.before = pyramid;
         Ok(tracked)
     }
@@ -170,9 +180,12 @@ impl Tracker {
             events: Vec::new(),
         };
         for object in &mut self.objects {
-            let step = object.body.skip();
+            let step = object.body.coast(None, Prediction::Flown, 0.0);
+            object.state = step.state;
             object.unseen += 1;
-            tracked.outlines.push(object.outline(&step));
+            if object.state != State::Left {
+                tracked.outlines.push(object.outline(&step));
+            }
             let (frame, id) = (self.frame, object.id);
             tracked.events.push(Event {
                 frame,
@@ -213,7 +226,7 @@ impl Tracker {
             width,
             height,
         })?;
-        object.unseen = 0;
+        (object.unseen, object.state) = (0, State::Seen);
         Ok(Event {
             frame: self.frame,
             id,
@@ -229,14 +242,13 @@ impl Tracker {
             id,
             parent,
             body,
+            state: State::Seen,
             unseen: 0,
         };
-        let nodes = object.body.outline().len();
         let step = Step {
             prediction: Prediction::Still,
             confidence: 1.0,
-            quality: vec![1.0; nodes],
-            seen: true,
+            state: State::Seen,
         };
         self.first.outlines.push(object.outline(&step));
         self.first.events.push(Event {
@@ -259,13 +271,28 @@ impl Object {
             material: self.body.material().to_vec(),
             errors: self.body.errors(),
             points,
-            state: step.state(),
+            state: step.state,
             confidence: step.confidence,
             velocity,
             rotation,
             prediction: step.prediction,
         }
     }
+}
+
+/// The outlines of other objects that lie near one.
+fn beside(all: &[Vec<DVec2>], index: usize) -> Vec<Vec<DVec2>> {
+    let (low, high) = ring::bounds(&all[index]);
+    let reach = high - low;
+    let near = |other: &[DVec2]| {
+        let (least, most) = ring::bounds(other);
+        least.cmple(high + reach).all() && most.cmpge(low - reach).all()
+    };
+    let others = all
+        .iter()
+        .enumerate()
+        .filter(|(other, outline)| *other != index && near(outline));
+    others.map(|(_, outline)| outline.clone()).collect()
 }
 
 /// A frame as flow sees it.

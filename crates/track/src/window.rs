@@ -43,6 +43,18 @@ pub(crate) struct Window {
     /// Which of them are compared: 2 without color.
     pub channels: usize,
     classes: Vec<Cell<u8>>,
+    owners: Vec<Owner>,
+}
+
+/// To which object a cell belongs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Owner {
+    /// This one, or none.
+    Free,
+    /// Another one alone.
+    Other,
+    /// This one and another: which lies in front is not known.
+    Shared,
 }
 
 /// From pixels to cells of blocks of that side, and back.
@@ -127,6 +139,7 @@ impl Window {
         let features: Vec<Feature> = (0..width * height).map(feature).collect();
         let classes = vec![Cell::new(UNKNOWN); features.len()];
         let channels = if lightness.color { 4 } else { 2 };
+        let owners = vec![Owner::Free; features.len()];
         Self {
             left,
             top,
@@ -135,6 +148,7 @@ impl Window {
             features,
             channels,
             classes,
+            owners,
         }
     }
 
@@ -155,18 +169,37 @@ impl Window {
 
     /// The class of the cell that holds a place; None outside.
     pub(crate) fn class(&self, p: DVec2, palette: &Palette) -> Option<u8> {
-        self.cell(p).map(|at| self.class_at(at, palette))
+        self.cell(p).and_then(|at| self.class_at(at, palette))
     }
 
     /// The class of a cell by its number.
-    pub(crate) fn class_at(&self, at: usize, palette: &Palette) -> u8 {
+    pub(crate) fn class_at(&self, at: usize, palette: &Palette) -> Option<u8> {
+        if self.owners[at] == Owner::Shared {
+            return None;
+        }
         let known = self.classes[at].get();
         if known != UNKNOWN {
-            return known;
+            return Some(known);
         }
         let class = palette.nearest(&self.features[at]);
         self.classes[at].set(class);
-        class
+        Some(class)
+    }
+
+    /// Whether a place belongs to another object alone.
+    pub(crate) fn is_other(&self, p: DVec2) -> bool {
+        self.cell(p)
+            .is_some_and(|at| self.owners[at] == Owner::Other)
+    }
+
+    /// Mark the cells of another object: where this one is expected too, either may lie in front.
+    pub(crate) fn own(&mut self, expected: &[DVec2], other: &[DVec2]) {
+        let (mine, theirs) = (self.inside(expected), self.inside(other));
+        for ((owner, mine), theirs) in self.owners.iter_mut().zip(mine).zip(theirs) {
+            if theirs {
+                *owner = if mine { Owner::Shared } else { Owner::Other };
+            }
+        }
     }
 
     /// The features between cells, linear; None outside.
@@ -176,7 +209,9 @@ impl Window {
         reason = "checked to lie in the window"
     )]
     pub(crate) fn feature(&self, p: DVec2) -> Option<Feature> {
-        self.cell(p)?;
+        if self.owners[self.cell(p)?] == Owner::Shared {
+            return None;
+        }
         let x = (p.x - self.left as f64).clamp(0.0, (self.width - 1) as f64);
         let y = (p.y - self.top as f64).clamp(0.0, (self.height - 1) as f64);
         let (i, j) = (x as usize, y as usize);

@@ -14,13 +14,14 @@ mod sizes;
 mod words;
 
 /// Own packages, without the prefix `snakes-`, and their floor: an arrow may only point to a lower one.
-const FLOORS: [(&str, u32); 21] = [
+const FLOORS: [(&str, u32); 22] = [
     ("lanes", 0),
     ("banded", 0),
     ("field", 1),
     ("elastic", 1),
     ("outline", 1),
     ("integrator", 1),
+    ("flow", 2),
     ("snake", 2),
     ("score", 2),
     ("search", 2),
@@ -29,7 +30,7 @@ const FLOORS: [(&str, u32); 21] = [
     ("instances", 4),
     ("fit", 5),
     ("snakes", 6), // what users see of all below
-    ("tracker", 6),
+    ("track", 6),
     ("scene", 7),
     ("cli", 8),
     ("sandbox", 8),
@@ -47,11 +48,13 @@ const DOORS: [(&str, &[&str]); 30] = [
         &[
             "field",
             "fit",
+            "flow",
             "instances",
             "io",
             "scene",
             "score",
             "search",
+            "track",
             "cli",
             "sandbox",
             "benches",

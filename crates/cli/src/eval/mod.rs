@@ -4,6 +4,7 @@ mod change;
 mod clock;
 mod csv;
 pub(crate) mod flags;
+mod follow;
 mod many;
 mod rows;
 mod set;
@@ -64,6 +65,9 @@ pub(crate) fn eval(flags: &Eval, words: Words) -> Answer {
     };
     if flags.set == Path::new("synthetic") && !flags.set.exists() {
         return drawn(flags, &way, words);
+    }
+    if let Some(answer) = follow::answer(flags, &way, words)? {
+        return answer;
     }
     let mut set = Set::load(&flags.set, &flags.inits)?;
     if set.many {

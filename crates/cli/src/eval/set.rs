@@ -179,7 +179,7 @@ fn seed(values: [&str; 3]) -> Result<Start, String> {
 }
 
 /// A polygon as `x y;x y;...`.
-fn polygon(text: &str) -> Result<Vec<DVec2>, String> {
+pub(super) fn polygon(text: &str) -> Result<Vec<DVec2>, String> {
     let mut points = Vec::new();
     for pair in text.split(';').filter(|pair| !pair.trim().is_empty()) {
         let mut numbers = pair.split_whitespace().map(str::parse::<f64>);

@@ -249,7 +249,7 @@ impl Course {
             _ if given.contains(&id) => TrackState::Given,
             State::Seen => TrackState::Tracked,
             State::Partly => TrackState::Partly,
-            State::Coasting => TrackState::Coasting,
+            State::Coasting | State::Left => TrackState::Coasting,
         };
         let sure = outline.confidence;
         Tracked {

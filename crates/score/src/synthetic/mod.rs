@@ -219,7 +219,7 @@ impl Case {
 
 /// Blurred by a Gaussian that ends four standard deviations out, rows then columns; beyond the border goes on what is
 /// at it.
-fn blurred(picture: &Grid, sigma: f64) -> Grid {
+pub(crate) fn blurred(picture: &Grid, sigma: f64) -> Grid {
     let mut weights = vec![1.0];
     let mut k = 1.0;
     while k <= (4.0 * sigma).ceil() {

@@ -1,0 +1,100 @@
+//! Development: the drawn sequences.
+use glam::DVec2;
+fn main() {
+    let only = std::env::args().nth(1).unwrap_or_default();
+    let verbose = std::env::args().nth(2).is_some();
+    let mut all = vec![];
+    for case in score::sequences::sequences() {
+        if !only.is_empty() && !case.name.contains(&only) {
+            continue;
+        }
+        let image = |t: usize| fit::Image::grey(case.frame(t));
+        let starts: Vec<(u32, Vec<DVec2>)> = case.start();
+        let options = track::Options {
+            start: track::Start::Exact,
+            births: starts.len() > 2 || case.name == "divide",
+            ..Default::default()
+        };
+        let contours: Vec<fit::Contour> = starts
+            .iter()
+            .map(|(_, p)| fit::Contour::closed(p.clone()))
+            .collect();
+        let mut tracker = track::Tracker::new(&image(0), &contours, &options).unwrap();
+        let ids: Vec<u32> = starts.iter().map(|s| s.0).collect();
+        let (mut sum, mut count, mut worst, mut hidden) = (0.0, 0.0, 1.0_f64, vec![]);
+        let mut time = 0.0;
+        for t in 1..case.frames() {
+            let frame = image(t);
+            let clock = std::time::Instant::now();
+            let tracked = tracker.next(&frame).unwrap();
+            time += clock.elapsed().as_secs_f64();
+            let [w, h] = case.size;
+            for e in &tracked.events {
+                if verbose {
+                    println!("   {t}: {e:?}");
+                }
+            }
+            for (id, truth) in case.truth(t) {
+                if truth.is_empty() {
+                    continue;
+                }
+                let at = ids.iter().position(|i| *i == id);
+                let found =
+                    at.and_then(|at| tracked.outlines.iter().find(|o| o.id as usize == at + 1));
+                let i = found.map_or(0.0, |o| {
+                    score::iou(
+                        &score::filled(&[&o.points[..]], (h, w)),
+                        &score::filled(&[&truth[..]], (h, w)),
+                    )
+                    .unwrap()
+                });
+                if verbose {
+                    println!(
+                        "   {t} id {id} iou {i:.3} {:?}",
+                        found.map(|o| {
+                            let c = o.points.iter().sum::<DVec2>() / o.points.len() as f64;
+                            let tc = truth.iter().sum::<DVec2>() / truth.len() as f64;
+                            let r = |p: &[DVec2]| {
+                                let n = p.len();
+                                ((0..n)
+                                    .map(|i| p[i].perp_dot(p[(i + 1) % n]))
+                                    .sum::<f64>()
+                                    .abs()
+                                    / 6.2832)
+                                    .sqrt()
+                            };
+                            (
+                                ((c - tc) * 10.0).round() / 10.0,
+                                (r(&o.points) / r(&truth) * 100.0).round() / 100.0,
+                                o.state,
+                                (o.confidence * 100.0).round() / 100.0,
+                                o.prediction,
+                            )
+                        })
+                    );
+                }
+                sum += i;
+                count += 1.0;
+                worst = worst.min(i);
+            }
+            for o in &tracked.outlines {
+                if o.state == track::State::Coasting {
+                    hidden.push(t);
+                }
+            }
+        }
+        println!(
+            "{:14} objects {:2} mean {:.3} worst {worst:.3} hidden {hidden:?} {:.1} ms/frame",
+            case.name,
+            starts.len(),
+            sum / count,
+            1e3 * time / case.frames() as f64
+        );
+        all.push(sum / count);
+    }
+    println!(
+        "mean {:.3} of the first 15: {:.3}",
+        all.iter().sum::<f64>() / all.len() as f64,
+        all.iter().take(15).sum::<f64>() / all.len().min(15) as f64
+    );
+}
