@@ -131,6 +131,11 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
     for note in sinks.end()? {
         words.say(&format!("note: {note}"));
     }
+    if let (false, Some(frame)) = (stop.asked(), course.not_mended()) {
+        words.say(&format!(
+            "note: --mend: frame {frame} was not followed, and nothing is mended there"
+        ));
+    }
     let stopped = stop.asked();
     if stopped {
         words.say(&format!("{STOPPED}; --resume goes on with a table"));

@@ -1,7 +1,7 @@
 //! Names of files with numbers in them: their order, and whether they are one sequence.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::order::{Piece, by_value, natural_order, pieces, stem};
 use crate::text::clip_to;
@@ -96,6 +96,7 @@ pub(super) fn sequence(names: &[&str]) -> Result<Sequence, String> {
     match several.first() {
         Some(own) => {
             found.order = (*own).clone();
+            let own: BTreeSet<usize> = own.iter().copied().collect();
             found.left_out = (0..names.len()).filter(|at| !own.contains(at)).collect();
         }
         None => found.order = (0..names.len()).collect(),
@@ -214,12 +215,9 @@ fn nested(names: &[&str]) -> Option<(Vec<usize>, Vec<usize>)> {
         .filter(|(_, own, _)| own.len() > 1)
         .collect();
     let pair = several.windows(2).find(|pair| {
-        let shared = |number: &&&str| {
-            pair[1]
-                .2
-                .iter()
-                .any(|other| by_value(number, other) == Ordering::Equal)
-        };
+        let plain = |number: &str| number.trim_start_matches('0').to_owned();
+        let others: BTreeSet<String> = pair[1].2.iter().map(|number| plain(number)).collect();
+        let shared = |number: &&&str| others.contains(&plain(number));
         2 * pair[0].2.iter().filter(shared).count() >= pair[0].2.len().min(pair[1].2.len())
     })?;
     Some((pair[0].1.clone(), pair[1].1.clone()))
@@ -403,6 +401,22 @@ mod tests {
         for name in ["masked_ball1.png", "t000.tif", "unmask.png", "segment3.png"] {
             assert!(!is_beside(name), "{name}");
         }
+    }
+
+    #[test]
+    fn a_hundred_thousand_names_are_told_apart_at_once() {
+        let mut names: Vec<String> = (0..100_000).map(|k| format!("run3_t{k}.png")).collect();
+        names.push("background.png".to_owned());
+        let list: Vec<&str> = names.iter().map(String::as_str).collect();
+        let found = sequence(&list).unwrap();
+        assert_eq!(
+            (found.order.len(), found.left_out),
+            (100_000, vec![100_000])
+        );
+        let two: Vec<String> = (0..100_000)
+            .map(|k| format!("s{}_t{}.png", k % 2, k / 2))
+            .collect();
+        assert!(sequence(&two.iter().map(String::as_str).collect::<Vec<_>>()).is_err());
     }
 
     #[test]
