@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 use search::along::Polygon;
-use search::smooth::smoothed;
 use search::path::{Costs, Steps};
+use search::smooth::smoothed;
 use search::whole::{at, signed};
 
 use crate::model::{Model, Seed, strength};

@@ -185,24 +185,20 @@ fn directions(window: &Window, strips: &Strips<'_>) -> Vec<Color> {
         }
         (count > 0.0).then(|| sum.map(|v: f32| v / count))
     };
-    let own: Vec<glam::DVec3> = (0..n)
-        .map(|i| {
-            match (
-                mean(i, -1.0, strips.room[i][0]),
-                mean(i, 1.0, strips.room[i][1]),
-            ) {
-                (Some(a), Some(b)) => glam::DVec3::new(
-                    f64::from(a[0] - b[0]),
-                    f64::from(a[1] - b[1]),
-                    f64::from(a[2] - b[2]),
-                ),
-                _ => glam::DVec3::ZERO,
-            }
-        })
-        .collect();
-    let smooth = search::along::smoothed(&own, WIDE, true);
-    smooth
-        .iter()
-        .map(|v| unit([v.x as f32, v.y as f32, v.z as f32]))
+    let difference = |i: usize| match (
+        mean(i, -1.0, strips.room[i][0]),
+        mean(i, 1.0, strips.room[i][1]),
+    ) {
+        (Some(a), Some(b)) => std::array::from_fn(|k| a[k] - b[k]),
+        _ => [0.0; 3],
+    };
+    let own: Vec<Color> = (0..n).map(difference).collect();
+    let channel = |k: usize| -> Vec<f64> {
+        let values: Vec<f64> = own.iter().map(|color| f64::from(color[k])).collect();
+        ring::along(&values, WIDE)
+    };
+    let smooth = [channel(0), channel(1), channel(2)];
+    (0..n)
+        .map(|i| unit(std::array::from_fn(|k| smooth[k][i] as f32)))
         .collect()
 }

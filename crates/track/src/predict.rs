@@ -165,7 +165,7 @@ pub(crate) fn flowed(
         }
     }
     let sigma = (SMOOTH * n as f64).max(1.0);
-    let sums = search::along::smoothed(&left, sigma, true);
+    let sums = search::smooth::smoothed(&left, sigma, true);
     let weights = ring::along(&known, sigma);
     let bent = carried.iter().zip(sums.iter().zip(&weights));
     let bent = bent

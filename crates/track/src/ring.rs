@@ -2,7 +2,8 @@
 
 use flow::Similarity;
 use glam::DVec2;
-use search::along::{Polygon, smoothed};
+use search::along::Polygon;
+use search::smooth::smoothed;
 
 /// σ of the smoothing of normals along the curve. Nodes.
 const CALM: f64 = 1.5;
