@@ -127,6 +127,21 @@ impl Edges {
         edges
     }
 
+    /// The same for other nodes, at places between these.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "places between nodes"
+    )]
+    pub(crate) fn respaced(&self, places: &[f64]) -> Self {
+        let n = self.directions.len();
+        let nearest = |place: &f64| self.directions[place.round() as usize % n];
+        Self {
+            directions: places.iter().map(nearest).collect(),
+            offsets: ring::between(&self.offsets, places),
+        }
+    }
+
     /// How much of its edge a node has so far out.
     pub(crate) fn at(
         &self,
