@@ -142,18 +142,6 @@ impl Edges {
         }
     }
 
-    /// How much of its edge a node has so far out.
-    pub(crate) fn at(
-        &self,
-        window: &Window,
-        strips: &Strips<'_>,
-        node: usize,
-        offset: f64,
-        half: f32,
-    ) -> f64 {
-        strength(self.slope(window, strips, node, offset), half)
-    }
-
     /// The slope of the color of its edge so far out from a node, above 0 from inside to outside.
     pub(crate) fn slope(
         &self,

@@ -134,15 +134,6 @@ impl Patch {
 }
 
 impl Region {
-    /// The mean of its cells.
-    pub(crate) fn middle(&self) -> DVec2 {
-        let places = self.cells.iter().map(|at| {
-            let (x, y) = (at % self.width, at / self.width);
-            DVec2::new(x as f64, y as f64)
-        });
-        places.sum::<DVec2>() / self.cells.len().max(1) as f64
-    }
-
     /// Its outer outline, clockwise on the screen, smoothed.
     #[allow(
         clippy::cast_possible_truncation,
