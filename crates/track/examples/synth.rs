@@ -23,12 +23,35 @@ fn main() {
         let ids: Vec<u32> = starts.iter().map(|s| s.0).collect();
         let (mut sum, mut count, mut worst, mut hidden) = (0.0, 0.0, 1.0_f64, vec![]);
         let mut time = 0.0;
+        let [w, h] = case.size;
+        let mut tracks = score::tracking::Tracks::default();
+        let mut lives: [std::collections::BTreeMap<u32, (usize, usize)>; 2] = Default::default();
+        let mut parents = std::collections::BTreeMap::new();
+        let mut add = |t: usize, tracked: &track::Tracked| {
+            let outlines: Vec<(u32, Vec<DVec2>)> = tracked
+                .outlines
+                .iter()
+                .map(|o| (o.id, o.points.clone()))
+                .collect();
+            for o in &tracked.outlines {
+                parents.extend(o.parent.map(|parent| (o.id, parent)));
+            }
+            let found = score::tracking::labelled(&outlines, (h, w));
+            let truth = case.labels(t);
+            tracks.add(&found, &truth).unwrap();
+            for (lives, labels) in lives.iter_mut().zip([&found, &truth]) {
+                for &label in labels.iter().filter(|label| **label > 0) {
+                    lives.entry(label).or_insert((t, t)).1 = t;
+                }
+            }
+        };
+        add(0, tracker.first());
         for t in 1..case.frames() {
             let frame = image(t);
             let clock = std::time::Instant::now();
             let tracked = tracker.next(&frame).unwrap();
             time += clock.elapsed().as_secs_f64();
-            let [w, h] = case.size;
+            add(t, &tracked);
             for e in &tracked.events {
                 if verbose {
                     println!("   {t}: {e:?}");
@@ -90,6 +113,42 @@ fn main() {
             sum / count,
             1e3 * time / case.frames() as f64
         );
+        if options.births || starts.len() > 1 {
+            let table = |which: usize| -> Vec<score::tracking::Lineage> {
+                lives[which]
+                    .iter()
+                    .map(|(&label, &(begin, end))| {
+                        let parent = if which == 0 {
+                            parents.get(&label).copied()
+                        } else {
+                            case.parents.iter().find(|p| p.0 == label).map(|p| p.1)
+                        };
+                        let parent =
+                            parent.filter(|p| lives[which].get(p).is_some_and(|l| l.1 < begin));
+                        score::tracking::Lineage {
+                            label,
+                            begin,
+                            end,
+                            parent: parent.unwrap_or(0),
+                        }
+                    })
+                    .collect()
+            };
+            let (found, truth) = (table(0), table(1));
+            let s = tracks.finish(&found, &truth).unwrap();
+            let three = |v: Option<f64>| v.map(|v| (v * 1e3).round() / 1e3);
+            println!(
+                "   SEG {:?} DET {:?} TRA {:?} IDF1 {:?} switches {} divisions {:?} ids {} {:?}",
+                three(s.seg),
+                three(s.det),
+                three(s.tra),
+                three(s.idf1),
+                s.switches,
+                s.divisions,
+                found.len(),
+                s.errors
+            );
+        }
         all.push(sum / count);
     }
     println!(

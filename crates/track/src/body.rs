@@ -327,7 +327,7 @@ impl Body {
             None => before,
         };
         if self.coasting == 0 {
-            self.motion.learn(&before, &self.curve);
+            self.motion.learn(&before, &self.curve, &quality);
         }
         self.innovation += 0.2 * (moved - self.innovation);
         self.shape.follow(&self.curve, &quality, &strays, off);
@@ -376,7 +376,7 @@ impl Body {
     clippy::cast_sign_loss,
     reason = "clamped to the frame"
 )]
-fn lightness(pixels: &dyn Pixels, block: usize, low: DVec2, high: DVec2) -> Lightness {
+pub(crate) fn lightness(pixels: &dyn Pixels, block: usize, low: DVec2, high: DVec2) -> Lightness {
     let size = block as f64;
     let (width, height) = pixels.size();
     let clamped = |v: f64, most: usize| v.clamp(0.0, (most - 1) as f64) as usize;

@@ -37,7 +37,11 @@
 //! files.
 
 mod body;
+mod born;
+mod contact;
 mod correct;
+mod crowd;
+mod divide;
 mod edges;
 mod error;
 mod evidence;
@@ -47,6 +51,7 @@ mod palette;
 mod plane;
 mod predict;
 mod profile;
+mod region;
 mod result;
 mod ring;
 mod seek;

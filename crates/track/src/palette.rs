@@ -75,6 +75,10 @@ impl Palette {
         self.entries.len()
     }
 
+    pub(crate) fn entries(&self) -> &[Feature] {
+        &self.entries
+    }
+
     #[allow(clippy::cast_possible_truncation, reason = "fewer than 80 entries")]
     pub(crate) fn nearest(&self, one: &Feature) -> u8 {
         nearest(&self.entries, one) as u8

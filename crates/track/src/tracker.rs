@@ -1,11 +1,17 @@
 //! Objects followed together through frames.
 
+use std::collections::BTreeMap;
+
 use fit::{Contour, Image};
 use flow::Pyramid;
 use glam::DVec2;
 use ndarray::Array2;
 
 use crate::body::{Body, Frame, Step};
+use crate::contact;
+use crate::crowd::Crowd;
+use crate::divide::Division;
+use crate::follow::Predicted;
 use crate::ring;
 use crate::start::begun;
 use crate::{Event, Happening, Options, Outline, Prediction, State, TrackError, Tracked};
@@ -13,27 +19,50 @@ use crate::{Event, Happening, Options, Outline, Prediction, State, TrackError, T
 /// How often a frame is halved for flow.
 const SIZES: usize = 5;
 
+/// Two outlines end on one object if they share so much of the smaller one, and were to share less than that before.
+const ONE: f64 = 0.5;
+const APART: f64 = 0.25;
+
+/// Objects that share so much of the smaller one for so many frames are one.
+const MERGED: f64 = 0.6;
+const TOGETHER: u32 = 8;
+
 /// Objects that are followed.
 #[derive(Debug)]
 pub struct Tracker {
-    options: Options,
+    pub(crate) options: Options,
     size: (usize, usize),
-    frame: usize,
-    next_id: u32,
-    objects: Vec<Object>,
+    pub(crate) frame: usize,
+    pub(crate) next_id: u32,
+    pub(crate) objects: Vec<Object>,
     before: Pyramid,
     first: Tracked,
+    /// What all look like, where objects may divide and be born.
+    pub(crate) crowd: Option<Crowd>,
+    /// Divisions that may be undone.
+    pub(crate) divisions: Vec<Division>,
+    /// Objects that have ended and may come back.
+    pub(crate) graves: Vec<Object>,
+    /// Pairs of objects that cover each other, and for how many frames.
+    together: BTreeMap<[u32; 2], u32>,
 }
 
 /// An object with its number.
-#[derive(Debug)]
-struct Object {
-    id: u32,
-    parent: Option<u32>,
-    body: Body,
-    state: State,
-    /// For how many frames it was not seen.
-    unseen: u32,
+#[derive(Debug, Clone)]
+pub(crate) struct Object {
+    pub id: u32,
+    pub parent: Option<u32>,
+    pub body: Body,
+    /// What the last frame has said.
+    pub step: Step,
+    /// For how many frames it was not seen, and for how many its place was empty.
+    pub unseen: u32,
+    pub gone: u32,
+    /// In which frame it came, and whether the border of the frame cuts it since.
+    pub since: usize,
+    pub cut: bool,
+    /// Its outline in the frame before. Pixels.
+    pub last: Vec<DVec2>,
 }
 
 impl Tracker {
@@ -58,6 +87,10 @@ impl Tracker {
                 outlines: Vec::new(),
                 events: Vec::new(),
             },
+            crowd: None,
+            divisions: Vec::new(),
+            graves: Vec::new(),
+            together: BTreeMap::new(),
         };
         let mut all = Vec::new();
         fit::in_order(
@@ -79,7 +112,12 @@ impl Tracker {
                 width,
                 height,
             })?;
-            tracker.add(body, None, Happening::Begun);
+            tracker.add(body);
+        }
+        if options.births {
+            let outlines = tracker.outlines();
+            let outlines: Vec<&[DVec2]> = outlines.iter().map(Vec::as_slice).collect();
+            tracker.crowd = Crowd::of(frame.pixels(), &outlines);
         }
         Ok(tracker)
     }
@@ -133,42 +171,172 @@ impl Tracker {
         };
         let order: Vec<usize> = (0..bodies.len()).collect();
         fit::in_order(&order, threads, work, |_, answer| followed.push(answer));
-        let mut tracked = Tracked {
-            frame: self.frame,
-            outlines: Vec::new(),
-            events: Vec::new(),
-        };
+        self.compete(now, &predicted, &expected, &mut followed);
+        let mut events = Vec::new();
         for (object, (body, step)) in self.objects.iter_mut().zip(followed) {
+            object.last = object.body.outline();
             object.body = body;
-            let sure = step.confidence.clamp(0.0, 1.0);
-            let (was, is) = (object.state, step.state);
-            object.state = is;
-            let mut say = |what, confidence| {
-                tracked.events.push(Event {
-                    frame: self.frame,
-                    id: object.id,
-                    what,
-                    confidence,
-                });
-            };
-            if was != State::Left && is == State::Left {
-                say(Happening::Left, 1.0);
+            let was = std::mem::replace(&mut object.step, step).state;
+            let (is, sure) = (object.step.state, object.step.confidence.clamp(0.0, 1.0));
+            let said = if was != State::Left && is == State::Left {
+                Some((Happening::Left, 1.0))
             } else if was.is_seen() && is == State::Coasting {
-                say(Happening::Hidden, 1.0 - sure);
+                Some((Happening::Hidden, 1.0 - sure))
             } else if !was.is_seen() && is.is_seen() {
-                say(Happening::Found, sure);
-            }
+                Some((Happening::Found, sure))
+            } else {
+                None
+            };
+            events.extend(said.map(|(what, confidence)| Event {
+                frame: self.frame,
+                id: object.id,
+                what,
+                confidence,
+            }));
             object.unseen = if is.is_seen() { 0 } else { object.unseen + 1 };
-            if object.unseen > self.options.patience {
-                say(Happening::Lost, 1.0);
-            } else if is != State::Left {
-                tracked.outlines.push(object.outline(&step));
+        }
+        let now = Frame {
+            before: None,
+            pixels: frame.pixels(),
+            pyramid: &pyramid,
+        };
+        self.come_and_go(frame, now, &mut events);
+        self.merge(&mut events);
+        self.give_up(&mut events);
+        self.before = pyramid;
+        let seen = self
+            .objects
+            .iter()
+            .filter(|object| object.step.state != State::Left);
+        let mut outlines: Vec<Outline> = seen.map(Object::outline).collect();
+        outlines.sort_by_key(|outline| outline.id);
+        contact::parted(&mut outlines);
+        Ok(Tracked {
+            frame: self.frame,
+            outlines,
+            events,
+        })
+    }
+
+    /// Where two end on one object that were to be apart, the one with less evidence looks elsewhere.
+    fn compete(
+        &self,
+        now: Frame<'_>,
+        predicted: &[Predicted],
+        expected: &[Vec<DVec2>],
+        followed: &mut [(Body, Step)],
+    ) {
+        let mut ended: Vec<Vec<DVec2>> = followed.iter().map(|(body, _)| body.outline()).collect();
+        for i in 1..followed.len() {
+            for j in 0..i {
+                let both = followed[i].1.state.is_seen() && followed[j].1.state.is_seen();
+                if !both
+                    || !contact::near(&ended[i], &ended[j])
+                    || contact::shared(&ended[i], &ended[j]) < ONE
+                    || contact::shared(&expected[i], &expected[j]) > APART
+                {
+                    continue;
+                }
+                let weaker = if followed[i].1.confidence < followed[j].1.confidence {
+                    i
+                } else {
+                    j
+                };
+                let stronger = i + j - weaker;
+                let mut places = expected.to_vec();
+                places[stronger].clone_from(&ended[stronger]);
+                let mut body = self.objects[weaker].body.clone();
+                let step = body.follow(now, &predicted[weaker], &beside(&places, weaker));
+                ended[weaker] = body.outline();
+                followed[weaker] = (body, step);
             }
         }
-        self.objects
-            .retain(|object| object.unseen <= self.options.patience);
-        self.before = pyramid;
-        Ok(tracked)
+    }
+
+    /// Objects divide, come and go, if they may.
+    fn come_and_go(&mut self, image: &Image, now: Frame<'_>, events: &mut Vec<Event>) {
+        let outlines = self.outlines();
+        let outlines: Vec<&[DVec2]> = outlines.iter().map(Vec::as_slice).collect();
+        let taught: Vec<bool> = self
+            .objects
+            .iter()
+            .map(|object| object.step.state == State::Seen)
+            .collect();
+        let Some(crowd) = &mut self.crowd else {
+            return;
+        };
+        let mut view = crowd.view(image.pixels(), &outlines, &taught);
+        self.reunite(image, now, &mut view, events);
+        self.divide(image, now, &mut view, events);
+        self.grow(image, now, &mut view);
+        self.bear(image, now, &mut view, events);
+        self.bury(&view, events);
+        self.objects.retain(|object| object.id > 0);
+    }
+
+    /// Of two that cover each other for long, the one with less evidence ends.
+    fn merge(&mut self, events: &mut Vec<Event>) {
+        let outlines = self.outlines();
+        let mut together = BTreeMap::new();
+        let mut ended = Vec::new();
+        for i in 1..self.objects.len() {
+            for j in 0..i {
+                let (a, b) = (&self.objects[i], &self.objects[j]);
+                let both = a.step.state.is_seen() && b.step.state.is_seen();
+                if !both
+                    || !contact::near(&outlines[i], &outlines[j])
+                    || contact::shared(&outlines[i], &outlines[j]) < MERGED
+                {
+                    continue;
+                }
+                let pair = [a.id.min(b.id), a.id.max(b.id)];
+                let frames = self.together.get(&pair).map_or(1, |frames| frames + 1);
+                together.insert(pair, frames);
+                if frames >= TOGETHER {
+                    let weaker = if a.step.confidence < b.step.confidence {
+                        [a.id, b.id]
+                    } else {
+                        [b.id, a.id]
+                    };
+                    ended.push(weaker);
+                }
+            }
+        }
+        self.together = together;
+        for [id, other] in ended {
+            let Some(at) = self.objects.iter().position(|object| object.id == id) else {
+                continue;
+            };
+            let object = self.objects.remove(at);
+            if self.options.births {
+                self.graves.push(object);
+            }
+            events.push(Event {
+                frame: self.frame,
+                id,
+                what: Happening::Merged(other),
+                confidence: 1.0,
+            });
+        }
+    }
+
+    /// Objects that were not seen for too long end.
+    fn give_up(&mut self, events: &mut Vec<Event>) {
+        let (frame, patience) = (self.frame, self.options.patience);
+        let lost = self.objects.iter().filter(|one| one.unseen > patience);
+        events.extend(lost.map(|object| Event {
+            frame,
+            id: object.id,
+            what: Happening::Lost,
+            confidence: 1.0,
+        }));
+        self.objects.retain(|object| object.unseen <= patience);
+    }
+
+    /// The outlines of all objects. Pixels.
+    fn outlines(&self) -> Vec<Vec<DVec2>> {
+        let outlines = self.objects.iter().map(|object| object.body.outline());
+        outlines.collect()
     }
 
     /// Go on without a frame that cannot be read: all objects go on as they were going.
@@ -181,10 +349,10 @@ impl Tracker {
         };
         for object in &mut self.objects {
             let step = object.body.coast(None, Prediction::Flown, 0.0);
-            object.state = step.state;
+            object.step = step;
             object.unseen += 1;
-            if object.state != State::Left {
-                tracked.outlines.push(object.outline(&step));
+            if object.step.state != State::Left {
+                tracked.outlines.push(object.outline());
             }
             let (frame, id) = (self.frame, object.id);
             tracked.events.push(Event {
@@ -226,7 +394,8 @@ impl Tracker {
             width,
             height,
         })?;
-        (object.unseen, object.state) = (0, State::Seen);
+        (object.unseen, object.gone) = (0, 0);
+        object.step = Step::begun();
         Ok(Event {
             frame: self.frame,
             id,
@@ -235,26 +404,14 @@ impl Tracker {
         })
     }
 
-    fn add(&mut self, body: Body, parent: Option<u32>, what: Happening) {
-        let id = self.next_id;
+    fn add(&mut self, body: Body) {
+        let object = Object::new(self.next_id, None, body, 0);
         self.next_id += 1;
-        let object = Object {
-            id,
-            parent,
-            body,
-            state: State::Seen,
-            unseen: 0,
-        };
-        let step = Step {
-            prediction: Prediction::Still,
-            confidence: 1.0,
-            state: State::Seen,
-        };
-        self.first.outlines.push(object.outline(&step));
+        self.first.outlines.push(object.outline());
         self.first.events.push(Event {
             frame: 0,
-            id,
-            what,
+            id: object.id,
+            what: Happening::Begun,
             confidence: 1.0,
         });
         self.objects.push(object);
@@ -262,7 +419,23 @@ impl Tracker {
 }
 
 impl Object {
-    fn outline(&self, step: &Step) -> Outline {
+    /// An object that comes in a frame.
+    pub(crate) fn new(id: u32, parent: Option<u32>, body: Body, since: usize) -> Self {
+        Self {
+            id,
+            parent,
+            last: body.outline(),
+            body,
+            step: Step::begun(),
+            unseen: 0,
+            gone: 0,
+            since,
+            cut: false,
+        }
+    }
+
+    fn outline(&self) -> Outline {
+        let step = &self.step;
         let points = self.body.outline();
         let (velocity, rotation) = self.body.velocity();
         Outline {

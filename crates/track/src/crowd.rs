@@ -1,0 +1,228 @@
+//! What all objects together look like, and where in a frame that is seen.
+
+use field::Pixels;
+use glam::DVec2;
+
+use crate::body::lightness;
+use crate::palette::{Palette, SAMPLE};
+use crate::region::{filled, grown};
+use crate::ring;
+use crate::window::{Lightness, Window, cells, to_cells, to_pixels};
+
+/// The radius of the middle object in cells is at most this: larger ones are seen in blocks.
+const RADIUS: f64 = 50.0;
+
+/// What lies within so many steps of an outline is neither taught as object nor as ground. Cells.
+const MARGIN: usize = 2;
+
+/// Two classes count as each other by (1 + (distance / this)²)⁻². Units of lightness.
+const LIKE: f32 = 6.0;
+
+/// How fast it follows.
+const LEARN: f32 = 0.1;
+
+/// Added to the share of each class, over their number.
+const UNSEEN: f32 = 0.01;
+
+/// The appearance of all objects against that of the ground.
+#[derive(Debug, Clone)]
+pub(crate) struct Crowd {
+    block: usize,
+    light: Lightness,
+    palette: Palette,
+    /// Shares of classes on the ground and in objects.
+    shares: [Vec<f32>; 2],
+    /// The area of the middle object. Cells.
+    pub area: f64,
+}
+
+/// A frame as the crowd sees it.
+#[derive(Debug, Clone)]
+pub(crate) struct View {
+    pub size: (usize, usize),
+    block: f64,
+    /// Which cells look like objects.
+    pub like: Vec<bool>,
+    /// The number of the object that covers a cell, from 1; 0 for none.
+    pub owner: Vec<usize>,
+}
+
+impl View {
+    pub(crate) fn to_cells(&self, curve: &[DVec2]) -> Vec<DVec2> {
+        curve.iter().map(|p| to_cells(*p, self.block)).collect()
+    }
+
+    pub(crate) fn to_pixels(&self, curve: &[DVec2]) -> Vec<DVec2> {
+        curve.iter().map(|p| to_pixels(*p, self.block)).collect()
+    }
+
+    /// Which share of a curve's cells in the frame looks like objects, and is not another's.
+    pub(crate) fn share(&self, own: usize, curve: &[DVec2]) -> f64 {
+        let (mut like, mut all) = (0.0, 0.0);
+        filled(self.size, &self.to_cells(curve), |at| {
+            all += 1.0;
+            if self.like[at] && (self.owner[at] == 0 || self.owner[at] == own) {
+                like += 1.0;
+            }
+        });
+        if all > 0.0 { like / all } else { 0.0 }
+    }
+
+    /// Objects cover these cells from now on.
+    pub(crate) fn cover(&mut self, own: usize, curve: &[DVec2]) {
+        let curve = self.to_cells(curve);
+        filled(self.size, &curve, |at| {
+            if self.owner[at] == 0 {
+                self.owner[at] = own;
+            }
+        });
+    }
+}
+
+impl Crowd {
+    /// What objects of those outlines look like in a frame; None if they enclose nothing.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a small count"
+    )]
+    pub(crate) fn of(pixels: &dyn Pixels, outlines: &[&[DVec2]]) -> Option<Self> {
+        let radius = middle(outlines.iter().map(|outline| ring::radius(outline)))?;
+        let block = (radius / RADIUS).ceil().max(1.0) as usize;
+        let (columns, rows) = cells(pixels.size(), block);
+        let last = DVec2::new(columns as f64, rows as f64) - 1.0;
+        let light = lightness(pixels, block, DVec2::ZERO, last);
+        let window = whole(pixels, block, light);
+        let owner = owners((columns, rows), block, outlines);
+        let sides = sides((columns, rows), &owner);
+        let mut sample = Vec::new();
+        for side in &sides {
+            let step = side.len().div_ceil(SAMPLE).max(1);
+            sample.extend(side.iter().step_by(step).map(|&at| window.features[at]));
+        }
+        let palette = Palette::of(&sample, light.color);
+        let shares = shares(&window, &palette, &sides);
+        Some(Self {
+            block,
+            light,
+            palette,
+            shares,
+            area: std::f64::consts::PI * (radius / block as f64).powi(2),
+        })
+    }
+
+    /// A frame in which objects have those outlines; of `taught` it learns what they look like.
+    pub(crate) fn view(
+        &mut self,
+        pixels: &dyn Pixels,
+        outlines: &[&[DVec2]],
+        taught: &[bool],
+    ) -> View {
+        let size = cells(pixels.size(), self.block);
+        let window = whole(pixels, self.block, self.light);
+        let owner = owners(size, self.block, outlines);
+        let mut sides = sides(size, &owner);
+        sides[1].retain(|at| taught.get(owner[*at].wrapping_sub(1)) == Some(&true));
+        let now = shares(&window, &self.palette, &sides);
+        for (side, (own, now)) in sides.iter().zip(self.shares.iter_mut().zip(&now)) {
+            if !side.is_empty() {
+                let pairs = own.iter_mut().zip(now);
+                pairs.for_each(|(own, now)| *own += LEARN * (now - *own));
+            }
+        }
+        let radii = outlines.iter().zip(taught);
+        let radii = radii.filter(|(_, taught)| **taught);
+        if let Some(radius) = middle(radii.map(|(outline, _)| ring::radius(outline))) {
+            let area = std::f64::consts::PI * (radius / self.block as f64).powi(2);
+            self.area += f64::from(LEARN) * (area - self.area);
+        }
+        let like: Vec<bool> = self.shares[0]
+            .iter()
+            .zip(&self.shares[1])
+            .map(|(ground, object)| object > ground)
+            .collect();
+        let like = (0..window.features.len()).map(|at| {
+            let class = window.class_at(at, &self.palette);
+            class.is_some_and(|class| like[usize::from(class)])
+        });
+        View {
+            size,
+            block: self.block as f64,
+            like: like.collect(),
+            owner,
+        }
+    }
+}
+
+/// The middle of some numbers.
+fn middle(numbers: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut numbers: Vec<f64> = numbers.collect();
+    numbers.sort_by(f64::total_cmp);
+    numbers
+        .get(numbers.len() / 2)
+        .copied()
+        .filter(|radius| *radius > 0.5)
+}
+
+/// The whole frame.
+fn whole(pixels: &dyn Pixels, block: usize, light: Lightness) -> Window {
+    let (columns, rows) = cells(pixels.size(), block);
+    let last = DVec2::new(columns as f64, rows as f64);
+    Window::of(pixels, block, light, DVec2::ZERO, last)
+}
+
+/// For each cell the first outline that encloses it, from 1.
+fn owners(size: (usize, usize), block: usize, outlines: &[&[DVec2]]) -> Vec<usize> {
+    let mut owner = vec![0; size.0 * size.1];
+    for (own, outline) in outlines.iter().enumerate() {
+        let curve: Vec<DVec2> = outline.iter().map(|p| to_cells(*p, block as f64)).collect();
+        filled(size, &curve, |at| {
+            if owner[at] == 0 {
+                owner[at] = own + 1;
+            }
+        });
+    }
+    owner
+}
+
+/// Cells well outside of all objects, and cells well inside one.
+fn sides(size: (usize, usize), owner: &[usize]) -> [Vec<usize>; 2] {
+    let covered: Vec<bool> = owner.iter().map(|own| *own > 0).collect();
+    let free: Vec<bool> = covered.iter().map(|covered| !covered).collect();
+    let near_covered = grown(size, &covered, MARGIN);
+    let near_free = grown(size, &free, 1);
+    let all = || 0..owner.len();
+    [
+        all().filter(|&at| !near_covered[at]).collect(),
+        all().filter(|&at| !near_free[at]).collect(),
+    ]
+}
+
+/// Shares of classes on both sides, each shared with those like it.
+fn shares(window: &Window, palette: &Palette, sides: &[Vec<usize>; 2]) -> [Vec<f32>; 2] {
+    let n = palette.len();
+    let entries = palette.entries();
+    [0, 1].map(|side: usize| {
+        let mut counts = vec![0.0_f32; n];
+        for &at in &sides[side] {
+            if let Some(class) = window.class_at(at, palette) {
+                counts[usize::from(class)] += 1.0;
+            }
+        }
+        let total = counts.iter().sum::<f32>().max(1.0);
+        let near = |a: usize, b: usize| {
+            let far: f32 = entries[a]
+                .iter()
+                .zip(&entries[b])
+                .map(|(a, b)| (a - b) * (a - b))
+                .sum();
+            (1.0 + far / (LIKE * LIKE)).powi(-2)
+        };
+        (0..n)
+            .map(|a| {
+                let sum: f32 = (0..n).map(|b| near(a, b) * counts[b]).sum();
+                sum / total + UNSEEN / n as f32 * f32::from(u8::from(side == 0))
+            })
+            .collect()
+    })
+}
