@@ -173,7 +173,8 @@ impl Tracker {
         let rectangle = Rectangle::about(&curve, margin, view.size);
         let own = index + 1;
         let found = regions(view.size, rectangle, |at| {
-            view.like[at] && (view.owner[at] == 0 || view.owner[at] == own)
+            let owner = view.owner[at];
+            view.like[at] && (owner == own || (owner == 0 && !view.is_beside_other(at, own)))
         });
         let mine = |region: &Region| {
             let cells = region.cells.iter();

@@ -24,6 +24,22 @@ const LEARN: f32 = 0.1;
 /// Added to the share of each class, over their number.
 const UNSEEN: f32 = 0.01;
 
+/// The ways to cells within two steps.
+const STEPS: [(isize, isize); 12] = [
+    (0, -2),
+    (-1, -1),
+    (0, -1),
+    (1, -1),
+    (-2, 0),
+    (-1, 0),
+    (1, 0),
+    (2, 0),
+    (-1, 1),
+    (0, 1),
+    (1, 1),
+    (0, 2),
+];
+
 /// The appearance of all objects against that of the ground.
 #[derive(Debug, Clone)]
 pub(crate) struct Crowd {
@@ -68,7 +84,21 @@ impl View {
         if all > 0.0 { like / all } else { 0.0 }
     }
 
-    /// Objects cover these cells from now on.
+    /// Whether a cell lies within two steps of those of another object.
+    pub(crate) fn is_beside_other(&self, at: usize, own: usize) -> bool {
+        let (width, height) = self.size;
+        let (x, y) = ((at % width).cast_signed(), (at / width).cast_signed());
+        STEPS.iter().any(|(i, j)| {
+            let (x, y) = (x + i, y + j);
+            let inside = x >= 0 && y >= 0 && x < width.cast_signed() && y < height.cast_signed();
+            inside && {
+                let owner = self.owner[y.unsigned_abs() * width + x.unsigned_abs()];
+                owner != 0 && owner != own
+            }
+        })
+    }
+
+    /// An object covers these cells from now on, where none does.
     pub(crate) fn cover(&mut self, own: usize, curve: &[DVec2]) {
         let curve = self.to_cells(curve);
         filled(self.size, &curve, |at| {

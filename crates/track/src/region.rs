@@ -134,15 +134,6 @@ impl Patch {
 }
 
 impl Region {
-    /// The mean of its cells.
-    pub(crate) fn middle(&self) -> DVec2 {
-        let places = self.cells.iter().map(|at| {
-            let (x, y) = (at % self.width, at / self.width);
-            DVec2::new(x as f64, y as f64)
-        });
-        places.sum::<DVec2>() / self.cells.len().max(1) as f64
-    }
-
     /// Its outer outline, clockwise on the screen, smoothed.
     #[allow(
         clippy::cast_possible_truncation,
@@ -291,7 +282,6 @@ mod tests {
         // clockwise on the screen
         assert!(elastic::signed_area(&outline) > 0.0);
         assert!((elastic::signed_area(&outline) / found[0].cells.len() as f64 - 1.0).abs() < 0.05);
-        assert!(found[0].middle().distance(DVec2::new(18.0, 20.0)) < 1e-9);
         assert!(
             (found[0].depth() - 10.5).abs() < 1.0,
             "{}",

@@ -23,9 +23,10 @@ const SIZES: usize = 5;
 const ONE: f64 = 0.5;
 const APART: f64 = 0.25;
 
-/// Objects that share so much of the smaller one for so many frames are one.
+/// Objects that share so much of the smaller one for so many frames, and go together within so many radii, are one.
 const MERGED: f64 = 0.6;
 const TOGETHER: u32 = 8;
+const STILL: f64 = 0.25;
 
 /// Objects that are followed.
 #[derive(Debug)]
@@ -43,8 +44,8 @@ pub struct Tracker {
     pub(crate) divisions: Vec<Division>,
     /// Objects that have ended and may come back.
     pub(crate) graves: Vec<Object>,
-    /// Pairs of objects that cover each other, and for how many frames.
-    together: BTreeMap<[u32; 2], u32>,
+    /// Pairs of objects that cover each other, for how many frames, and the way between them to begin with.
+    together: BTreeMap<[u32; 2], (u32, DVec2)>,
 }
 
 /// An object with its number.
@@ -164,9 +165,15 @@ impl Tracker {
             .map(|(body, predicted)| body.to_pixels(predicted.expected()))
             .collect();
         let mut followed = Vec::with_capacity(bodies.len());
+        let births = self.crowd.is_some();
         let work = |&index: &usize| {
             let mut body = bodies[index].clone();
-            let step = body.follow(now, &predicted[index], &beside(&expected, index));
+            // where new objects are looked for, one that has left comes back as one of them
+            let step = if births && body.left {
+                body.coast(Some(now.pixels), Prediction::Flown, 0.0)
+            } else {
+                body.follow(now, &predicted[index], &beside(&expected, index))
+            };
             (body, step)
         };
         let order: Vec<usize> = (0..bodies.len()).collect();
@@ -233,15 +240,15 @@ impl Tracker {
                 if !both
                     || !contact::near(&ended[i], &ended[j])
                     || contact::shared(&ended[i], &ended[j]) < ONE
-                    || contact::shared(&expected[i], &expected[j]) > APART
                 {
                     continue;
                 }
-                let weaker = if followed[i].1.confidence < followed[j].1.confidence {
-                    i
-                } else {
-                    j
-                };
+                let left = [i, j].map(|at| self.objects[at].body.left);
+                if left[0] == left[1] && contact::shared(&expected[i], &expected[j]) > APART {
+                    continue;
+                }
+                let less = followed[i].1.confidence < followed[j].1.confidence;
+                let weaker = if left[0] || (less && !left[1]) { i } else { j };
                 let stronger = i + j - weaker;
                 let mut places = expected.to_vec();
                 places[stronger].clone_from(&ended[stronger]);
@@ -274,41 +281,50 @@ impl Tracker {
         self.objects.retain(|object| object.id > 0);
     }
 
-    /// Of two that cover each other for long, the one with less evidence ends.
+    /// Of two that cover each other for long and go together, the one with less evidence ends.
     fn merge(&mut self, events: &mut Vec<Event>) {
         let outlines = self.outlines();
         let mut together = BTreeMap::new();
         let mut ended = Vec::new();
         for i in 1..self.objects.len() {
             for j in 0..i {
+                // by number, whatever their places are
+                let (i, j) = if self.objects[i].id < self.objects[j].id {
+                    (j, i)
+                } else {
+                    (i, j)
+                };
                 let (a, b) = (&self.objects[i], &self.objects[j]);
-                let both = a.step.state.is_seen() && b.step.state.is_seen();
-                if !both
+                let left = [a, b].iter().any(|one| one.step.state == State::Left);
+                if left
                     || !contact::near(&outlines[i], &outlines[j])
                     || contact::shared(&outlines[i], &outlines[j]) < MERGED
                 {
                     continue;
                 }
-                let pair = [a.id.min(b.id), a.id.max(b.id)];
-                let frames = self.together.get(&pair).map_or(1, |frames| frames + 1);
-                together.insert(pair, frames);
+                let way = ring::middle(&outlines[i]) - ring::middle(&outlines[j]);
+                let still = STILL * ring::radius(&outlines[i]).min(ring::radius(&outlines[j]));
+                let pair = [b.id, a.id];
+                let before = self.together.get(&pair);
+                let (frames, first) = match before {
+                    Some((frames, first)) if first.distance(way) < still => (frames + 1, *first),
+                    _ => (1, way),
+                };
+                together.insert(pair, (frames, first));
                 if frames >= TOGETHER {
-                    let weaker = if a.step.confidence < b.step.confidence {
-                        [a.id, b.id]
-                    } else {
-                        [b.id, a.id]
-                    };
-                    ended.push(weaker);
+                    let less = a.step.confidence <= b.step.confidence;
+                    ended.push(if less { [a.id, b.id] } else { [b.id, a.id] });
                 }
             }
         }
         self.together = together;
         for [id, other] in ended {
-            let Some(at) = self.objects.iter().position(|object| object.id == id) else {
+            let place = |id: u32| self.objects.iter().position(|object| object.id == id);
+            let (Some(at), Some(_)) = (place(id), place(other)) else {
                 continue;
             };
             let object = self.objects.remove(at);
-            if self.options.births {
+            if self.crowd.is_some() {
                 self.graves.push(object);
             }
             events.push(Event {
