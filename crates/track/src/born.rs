@@ -154,13 +154,14 @@ impl Tracker {
             };
             let own = view.owner.iter().filter(|own| **own == index + 1).count() as f64;
             let all = region.cells.len() as f64;
-            if all > GROWN * own && all < MOST * own {
-                if let Some(body) = embodied(image, now, view, &region, &self.options.fit) {
-                    view.cover(index + 1, &body.outline());
-                    let object = &mut self.objects[index];
-                    object.body = body;
-                    object.step = Step::begun();
-                }
+            if all > GROWN * own
+                && all < MOST * own
+                && let Some(body) = embodied(image, now, view, &region, &self.options.fit)
+            {
+                view.cover(index + 1, &body.outline());
+                let object = &mut self.objects[index];
+                object.body = body;
+                object.step = Step::begun();
             }
             self.objects[index].cut &= region.at_border;
         }

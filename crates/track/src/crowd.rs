@@ -4,7 +4,7 @@ use field::Pixels;
 use glam::DVec2;
 
 use crate::body::lightness;
-use crate::palette::{Palette, SAMPLE};
+use crate::palette::{Feature, Palette, SAMPLE};
 use crate::region::{filled, grown};
 use crate::ring;
 use crate::window::{Lightness, Window, cells, to_cells, to_pixels};
@@ -23,6 +23,9 @@ const LEARN: f32 = 0.1;
 
 /// Added to the share of each class, over their number.
 const UNSEEN: f32 = 0.01;
+
+/// Which features are lightness and color.
+const COLORS: [usize; 3] = [0, 2, 3];
 
 /// The ways to cells within two steps.
 const STEPS: [(isize, isize); 12] = [
@@ -48,6 +51,8 @@ pub(crate) struct Crowd {
     palette: Palette,
     /// Shares of classes on the ground and in objects.
     shares: [Vec<f32>; 2],
+    /// The mean features of the ground and of objects.
+    means: [Feature; 2],
     /// The area of the middle object. Cells.
     pub area: f64,
 }
@@ -59,6 +64,8 @@ pub(crate) struct View {
     block: f64,
     /// Which cells look like objects.
     pub like: Vec<bool>,
+    /// How far each cell is from the mean of the ground, 0, towards that of objects, 1.
+    pub level: Vec<f32>,
     /// The number of the object that covers a cell, from 1; 0 for none.
     pub owner: Vec<usize>,
 }
@@ -82,6 +89,38 @@ impl View {
             }
         });
         if all > 0.0 { like / all } else { 0.0 }
+    }
+
+    /// The highest level on a line, one cell at a time; or the lowest.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped to the grid"
+    )]
+    pub(crate) fn extreme(&self, from: DVec2, to: DVec2, highest: bool) -> f32 {
+        let steps = from.distance(to).ceil().max(1.0);
+        let (width, height) = self.size;
+        let last = DVec2::new(width as f64 - 1.0, height as f64 - 1.0);
+        let mut k = 0.0;
+        let mut found: Option<f32> = None;
+        while k <= steps {
+            let p = from.lerp(to, k / steps).round().clamp(DVec2::ZERO, last);
+            let level = self.level[p.y as usize * width + p.x as usize];
+            found = Some(match found {
+                Some(found) if highest => found.max(level),
+                Some(found) => found.min(level),
+                None => level,
+            });
+            k += 1.0;
+        }
+        found.unwrap_or(0.0)
+    }
+
+    /// The middle level of a region.
+    pub(crate) fn middle_level(&self, cells: &[usize]) -> f32 {
+        let mut levels: Vec<f32> = cells.iter().map(|&at| self.level[at]).collect();
+        levels.sort_by(f32::total_cmp);
+        levels.get(levels.len() / 2).copied().unwrap_or(0.0)
     }
 
     /// Whether a cell lies within two steps of those of another object.
@@ -132,7 +171,9 @@ impl Crowd {
         }
         let palette = Palette::of(&sample, light.color);
         let shares = shares(&window, &palette, &sides);
+        let means = means(&window, &sides).map(Option::unwrap_or_default);
         Some(Self {
+            means,
             block,
             light,
             palette,
@@ -160,6 +201,12 @@ impl Crowd {
                 pairs.for_each(|(own, now)| *own += LEARN * (now - *own));
             }
         }
+        for (own, now) in self.means.iter_mut().zip(means(&window, &sides)) {
+            if let Some(now) = now {
+                let pairs = own.iter_mut().zip(now);
+                pairs.for_each(|(own, now)| *own += LEARN * (now - *own));
+            }
+        }
         let radii = outlines.iter().zip(taught);
         let radii = radii.filter(|(_, taught)| **taught);
         if let Some(radius) = middle(radii.map(|(outline, _)| ring::radius(outline))) {
@@ -179,9 +226,45 @@ impl Crowd {
             size,
             block: self.block as f64,
             like: like.collect(),
+            level: self.levels(&window),
             owner,
         }
     }
+}
+
+impl Crowd {
+    /// How far cells are from the ground towards objects: by lightness and color.
+    fn levels(&self, window: &Window) -> Vec<f32> {
+        let [ground, object] = self.means;
+        let way = COLORS.map(|k| object[k] - ground[k]);
+        let size: f32 = way.iter().map(|v| v * v).sum();
+        let one = |feature: &Feature| {
+            let along: f32 = COLORS
+                .iter()
+                .zip(way)
+                .map(|(&k, way)| way * (feature[k] - ground[k]))
+                .sum();
+            if size > 0.0 { along / size } else { 0.0 }
+        };
+        window.features.iter().map(one).collect()
+    }
+}
+
+/// The mean features of cells; None where there are none.
+fn means(window: &Window, sides: &[Vec<usize>; 2]) -> [Option<Feature>; 2] {
+    [0, 1].map(|side: usize| {
+        let mut sum = [0.0_f64; 4];
+        for &at in &sides[side] {
+            let feature = &window.features[at];
+            sum.iter_mut()
+                .zip(feature)
+                .for_each(|(sum, v)| *sum += f64::from(*v));
+        }
+        let count = sides[side].len() as f64;
+        #[allow(clippy::cast_possible_truncation, reason = "a mean of f32")]
+        let mean = sum.map(|sum| (sum / count) as f32);
+        (count > 0.0).then_some(mean)
+    })
 }
 
 /// The middle of some numbers.

@@ -134,6 +134,16 @@ impl Patch {
 }
 
 impl Region {
+    /// Its two parts on either side of a line.
+    pub(crate) fn split(&self, from: DVec2, to: DVec2) -> [Self; 2] {
+        let way = to - from;
+        let (left, right) = self.cells.iter().partition(|at| {
+            let p = DVec2::new((*at % self.width) as f64, (*at / self.width) as f64);
+            way.perp_dot(p - from) < 0.0
+        });
+        [left, right].map(|cells| Self { cells, ..*self })
+    }
+
     /// Its outer outline, clockwise on the screen, smoothed.
     #[allow(
         clippy::cast_possible_truncation,

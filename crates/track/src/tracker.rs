@@ -7,26 +7,16 @@ use flow::Pyramid;
 use glam::DVec2;
 use ndarray::Array2;
 
+use crate::assign::beside;
 use crate::body::{Body, Frame, Step};
 use crate::contact;
 use crate::crowd::Crowd;
 use crate::divide::Division;
-use crate::follow::Predicted;
-use crate::ring;
 use crate::start::begun;
 use crate::{Event, Happening, Options, Outline, Prediction, State, TrackError, Tracked};
 
 /// How often a frame is halved for flow.
 const SIZES: usize = 5;
-
-/// Two outlines end on one object if they share so much of the smaller one, and were to share less than that before.
-const ONE: f64 = 0.5;
-const APART: f64 = 0.25;
-
-/// Objects that share so much of the smaller one for so many frames, and go together within so many radii, are one.
-const MERGED: f64 = 0.6;
-const TOGETHER: u32 = 8;
-const STILL: f64 = 0.25;
 
 /// Objects that are followed.
 #[derive(Debug)]
@@ -45,7 +35,7 @@ pub struct Tracker {
     /// Objects that have ended and may come back.
     pub(crate) graves: Vec<Object>,
     /// Pairs of objects that cover each other, for how many frames, and the way between them to begin with.
-    together: BTreeMap<[u32; 2], (u32, DVec2)>,
+    pub(crate) together: BTreeMap<[u32; 2], (u32, DVec2)>,
 }
 
 /// An object with its number.
@@ -225,41 +215,6 @@ impl Tracker {
         })
     }
 
-    /// Where two end on one object that were to be apart, the one with less evidence looks elsewhere.
-    fn compete(
-        &self,
-        now: Frame<'_>,
-        predicted: &[Predicted],
-        expected: &[Vec<DVec2>],
-        followed: &mut [(Body, Step)],
-    ) {
-        let mut ended: Vec<Vec<DVec2>> = followed.iter().map(|(body, _)| body.outline()).collect();
-        for i in 1..followed.len() {
-            for j in 0..i {
-                let both = followed[i].1.state.is_seen() && followed[j].1.state.is_seen();
-                if !both
-                    || !contact::near(&ended[i], &ended[j])
-                    || contact::shared(&ended[i], &ended[j]) < ONE
-                {
-                    continue;
-                }
-                let left = [i, j].map(|at| self.objects[at].body.left);
-                if left[0] == left[1] && contact::shared(&expected[i], &expected[j]) > APART {
-                    continue;
-                }
-                let less = followed[i].1.confidence < followed[j].1.confidence;
-                let weaker = if left[0] || (less && !left[1]) { i } else { j };
-                let stronger = i + j - weaker;
-                let mut places = expected.to_vec();
-                places[stronger].clone_from(&ended[stronger]);
-                let mut body = self.objects[weaker].body.clone();
-                let step = body.follow(now, &predicted[weaker], &beside(&places, weaker));
-                ended[weaker] = body.outline();
-                followed[weaker] = (body, step);
-            }
-        }
-    }
-
     /// Objects divide, come and go, if they may.
     fn come_and_go(&mut self, image: &Image, now: Frame<'_>, events: &mut Vec<Event>) {
         let outlines = self.outlines();
@@ -281,61 +236,6 @@ impl Tracker {
         self.objects.retain(|object| object.id > 0);
     }
 
-    /// Of two that cover each other for long and go together, the one with less evidence ends.
-    fn merge(&mut self, events: &mut Vec<Event>) {
-        let outlines = self.outlines();
-        let mut together = BTreeMap::new();
-        let mut ended = Vec::new();
-        for i in 1..self.objects.len() {
-            for j in 0..i {
-                // by number, whatever their places are
-                let (i, j) = if self.objects[i].id < self.objects[j].id {
-                    (j, i)
-                } else {
-                    (i, j)
-                };
-                let (a, b) = (&self.objects[i], &self.objects[j]);
-                let left = [a, b].iter().any(|one| one.step.state == State::Left);
-                if left
-                    || !contact::near(&outlines[i], &outlines[j])
-                    || contact::shared(&outlines[i], &outlines[j]) < MERGED
-                {
-                    continue;
-                }
-                let way = ring::middle(&outlines[i]) - ring::middle(&outlines[j]);
-                let still = STILL * ring::radius(&outlines[i]).min(ring::radius(&outlines[j]));
-                let pair = [b.id, a.id];
-                let before = self.together.get(&pair);
-                let (frames, first) = match before {
-                    Some((frames, first)) if first.distance(way) < still => (frames + 1, *first),
-                    _ => (1, way),
-                };
-                together.insert(pair, (frames, first));
-                if frames >= TOGETHER {
-                    let less = a.step.confidence <= b.step.confidence;
-                    ended.push(if less { [a.id, b.id] } else { [b.id, a.id] });
-                }
-            }
-        }
-        self.together = together;
-        for [id, other] in ended {
-            let place = |id: u32| self.objects.iter().position(|object| object.id == id);
-            let (Some(at), Some(_)) = (place(id), place(other)) else {
-                continue;
-            };
-            let object = self.objects.remove(at);
-            if self.crowd.is_some() {
-                self.graves.push(object);
-            }
-            events.push(Event {
-                frame: self.frame,
-                id,
-                what: Happening::Merged(other),
-                confidence: 1.0,
-            });
-        }
-    }
-
     /// Objects that were not seen for too long end.
     fn give_up(&mut self, events: &mut Vec<Event>) {
         let (frame, patience) = (self.frame, self.options.patience);
@@ -350,7 +250,7 @@ impl Tracker {
     }
 
     /// The outlines of all objects. Pixels.
-    fn outlines(&self) -> Vec<Vec<DVec2>> {
+    pub(crate) fn outlines(&self) -> Vec<Vec<DVec2>> {
         let outlines = self.objects.iter().map(|object| object.body.outline());
         outlines.collect()
     }
@@ -467,21 +367,6 @@ impl Object {
             prediction: step.prediction,
         }
     }
-}
-
-/// The outlines of other objects that lie near one.
-fn beside(all: &[Vec<DVec2>], index: usize) -> Vec<Vec<DVec2>> {
-    let (low, high) = ring::bounds(&all[index]);
-    let reach = high - low;
-    let near = |other: &[DVec2]| {
-        let (least, most) = ring::bounds(other);
-        least.cmple(high + reach).all() && most.cmpge(low - reach).all()
-    };
-    let others = all
-        .iter()
-        .enumerate()
-        .filter(|(other, outline)| *other != index && near(outline));
-    others.map(|(_, outline)| outline.clone()).collect()
 }
 
 /// A frame as flow sees it.

@@ -142,6 +142,53 @@ fn a_dumbbell_that_never_parts_does_not_divide() {
 }
 
 #[test]
+fn parts_in_contact_are_two_if_a_dark_line_is_between_them() {
+    // two discs of radius 14 whose middles part to 26 pixels: with a dark line between them from frame 8 on, or without
+    for line in [Some(90.0), Some(110.0), None] {
+        let half = |t: usize| (2.0 * t as f64).min(13.0);
+        let frame = |t: usize| {
+            drawn(t, |p| {
+                let both =
+                    disc(p, 60.0 - half(t), 48.0, 14.0) || disc(p, 60.0 + half(t), 48.0, 14.0);
+                let between = t >= 8 && (p.x - 60.0).abs() < 1.5;
+                both.then_some(line.filter(|_| between).unwrap_or(180.0))
+            })
+        };
+        let all = followed(20, frame, &[circle(60.0, 48.0, 14.0)], &options(true));
+        let divided = happened(&all, |what| *what == Happening::Divided([2, 3]));
+        if line.is_some() {
+            assert!(
+                divided.len() == 1 && (8..=9).contains(&divided[0].0),
+                "{divided:?}"
+            );
+            assert_eq!(ids(&all[19]), [2, 3]);
+            let [a, b] = [0, 1].map(|at| &all[19].outlines[at].points);
+            assert!(overlap(a, b) < 2e-3);
+            for x in [47.0, 73.0] {
+                let truth: Vec<DVec2> = circle(x, 48.0, 14.0)
+                    .into_iter()
+                    .map(|p| {
+                        DVec2::new(
+                            if x < 60.0 {
+                                p.x.min(60.0)
+                            } else {
+                                p.x.max(60.0)
+                            },
+                            p.y,
+                        )
+                    })
+                    .collect();
+                let fit = fits(&all[19], 2, &truth).max(fits(&all[19], 3, &truth));
+                assert!(fit > 0.9, "{x}: {fit}");
+            }
+        } else {
+            assert!(divided.is_empty(), "{divided:?}");
+            assert_eq!(ids(&all[19]), [1]);
+        }
+    }
+}
+
+#[test]
 fn a_division_that_does_not_last_is_undone() {
     // a dark line cuts the object in frame 5 alone
     let frame = |t: usize| {
