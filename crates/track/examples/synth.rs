@@ -4,7 +4,10 @@ fn main() {
     let only = std::env::args().nth(1).unwrap_or_default();
     let verbose = std::env::args().nth(2).is_some();
     let mut all = vec![];
-    for case in score::sequences::sequences() {
+    for mut case in score::sequences::sequences() {
+        if let Ok(noise) = std::env::var("NOISE") {
+            case.noise = noise.parse().unwrap();
+        }
         if !only.is_empty() && !case.name.contains(&only) {
             continue;
         }

@@ -193,7 +193,8 @@ impl Tracker {
             place += 1;
             let object = &mut self.objects[index];
             let doubted = !object.step.state.is_seen() || object.step.confidence < SURE;
-            let empty = doubted
+            let empty = object.id > 0
+                && doubted
                 && object.step.state != State::Left
                 && view.share(place, &object.body.outline()) < EMPTY;
             object.gone = if empty { object.gone + 1 } else { 0 };

@@ -24,6 +24,10 @@ const LEARN: f32 = 0.1;
 /// Added to the share of each class, over their number.
 const UNSEEN: f32 = 0.01;
 
+/// Objects can be told from the ground if less of the ground and more of the objects looks like objects.
+const MOST_GROUND: f64 = 0.4;
+const LEAST_OBJECTS: f64 = 0.6;
+
 /// Which features are lightness and color.
 const COLORS: [usize; 3] = [0, 2, 3];
 
@@ -182,13 +186,14 @@ impl Crowd {
         })
     }
 
-    /// A frame in which objects have those outlines; of `taught` it learns what they look like.
+    /// A frame in which objects have those outlines; of `taught` it learns what they look like. None where objects cannot
+    /// be told from the ground.
     pub(crate) fn view(
         &mut self,
         pixels: &dyn Pixels,
         outlines: &[&[DVec2]],
         taught: &[bool],
-    ) -> View {
+    ) -> Option<View> {
         let size = cells(pixels.size(), self.block);
         let window = whole(pixels, self.block, self.light);
         let owner = owners(size, self.block, outlines);
@@ -222,13 +227,20 @@ impl Crowd {
             let class = window.class_at(at, &self.palette);
             class.is_some_and(|class| like[usize::from(class)])
         });
-        View {
+        let like: Vec<bool> = like.collect();
+        let share = |side: &[usize]| {
+            let found = side.iter().filter(|&&at| like[at]).count();
+            found as f64 / side.len().max(1) as f64
+        };
+        let [ground, objects] = [share(&sides[0]), share(&sides[1])];
+        let told = ground < MOST_GROUND && (objects > LEAST_OBJECTS || sides[1].is_empty());
+        told.then(|| View {
             size,
             block: self.block as f64,
-            like: like.collect(),
+            like,
             level: self.levels(&window),
             owner,
-        }
+        })
     }
 }
 

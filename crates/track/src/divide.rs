@@ -143,12 +143,15 @@ impl Tracker {
     /// The two regions that an object has become.
     fn parts(&self, index: usize, view: &View) -> Option<[Region; 2]> {
         let object = &self.objects[index];
-        if object.step.state == State::Left || object.since + 1 >= self.frame {
+        if object.step.state == State::Left || (object.since > 0 && object.since + 1 >= self.frame)
+        {
             return None;
         }
         let before = view.to_cells(&object.last);
         let here = view.to_cells(&object.body.outline());
-        let area = elastic::signed_area(&before).abs();
+        let mut cells: Vec<usize> = Vec::new();
+        filled(view.size, &before, |at| cells.push(at));
+        let area = cells.len() as f64;
         let margin = BEYOND * ring::radius(&before);
         let both: Vec<DVec2> = before.iter().chain(&here).copied().collect();
         let rectangle = Rectangle::about(&both, margin, view.size);
@@ -157,8 +160,6 @@ impl Tracker {
             view.like[at] && (view.owner[at] == 0 || view.owner[at] == own)
         });
         parts.retain(|part| part.cells.len() as f64 >= PART * area);
-        let mut cells: Vec<usize> = Vec::new();
-        filled(view.size, &before, |at| cells.push(at));
         filled(view.size, &here, |at| cells.push(at));
         cells.sort_unstable();
         parts.retain(|part| {
@@ -174,7 +175,7 @@ impl Tracker {
             parts = necked(whole, view)?.to_vec();
         }
         let parts: [Region; 2] = parts.try_into().ok()?;
-        (fits && parts.iter().all(|part| !part.at_border)).then_some(parts)
+        fits.then_some(parts)
     }
 
     /// Divisions whose children are not two objects in the frames after are undone.

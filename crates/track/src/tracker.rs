@@ -227,7 +227,9 @@ impl Tracker {
         let Some(crowd) = &mut self.crowd else {
             return;
         };
-        let mut view = crowd.view(image.pixels(), &outlines, &taught);
+        let Some(mut view) = crowd.view(image.pixels(), &outlines, &taught) else {
+            return;
+        };
         self.reunite(image, now, &mut view, events);
         self.divide(image, now, &mut view, events);
         self.grow(image, now, &mut view);
