@@ -154,13 +154,14 @@ impl Tracker {
             };
             let own = view.owner.iter().filter(|own| **own == index + 1).count() as f64;
             let all = region.cells.len() as f64;
-            if all > GROWN * own && all < MOST * own {
-                if let Some(body) = embodied(image, now, view, &region, &self.options.fit) {
-                    view.cover(index + 1, &body.outline());
-                    let object = &mut self.objects[index];
-                    object.body = body;
-                    object.step = Step::begun();
-                }
+            if all > GROWN * own
+                && all < MOST * own
+                && let Some(body) = embodied(image, now, view, &region, &self.options.fit)
+            {
+                view.cover(index + 1, &body.outline());
+                let object = &mut self.objects[index];
+                object.body = body;
+                object.step = Step::begun();
             }
             self.objects[index].cut &= region.at_border;
         }
@@ -173,7 +174,8 @@ impl Tracker {
         let rectangle = Rectangle::about(&curve, margin, view.size);
         let own = index + 1;
         let found = regions(view.size, rectangle, |at| {
-            view.like[at] && (view.owner[at] == 0 || view.owner[at] == own)
+            let owner = view.owner[at];
+            view.like[at] && (owner == own || (owner == 0 && !view.is_beside_other(at, own)))
         });
         let mine = |region: &Region| {
             let cells = region.cells.iter();
@@ -191,7 +193,8 @@ impl Tracker {
             place += 1;
             let object = &mut self.objects[index];
             let doubted = !object.step.state.is_seen() || object.step.confidence < SURE;
-            let empty = doubted
+            let empty = object.id > 0
+                && doubted
                 && object.step.state != State::Left
                 && view.share(place, &object.body.outline()) < EMPTY;
             object.gone = if empty { object.gone + 1 } else { 0 };

@@ -4,7 +4,7 @@ use field::Pixels;
 use glam::DVec2;
 
 use crate::body::lightness;
-use crate::palette::{Palette, SAMPLE};
+use crate::palette::{Feature, Palette, SAMPLE};
 use crate::region::{filled, grown};
 use crate::ring;
 use crate::window::{Lightness, Window, cells, to_cells, to_pixels};
@@ -24,6 +24,29 @@ const LEARN: f32 = 0.1;
 /// Added to the share of each class, over their number.
 const UNSEEN: f32 = 0.01;
 
+/// Objects can be told from the ground if less of the ground and more of the objects looks like objects.
+const MOST_GROUND: f64 = 0.4;
+const LEAST_OBJECTS: f64 = 0.6;
+
+/// Which features are lightness and color.
+const COLORS: [usize; 3] = [0, 2, 3];
+
+/// The ways to cells within two steps.
+const STEPS: [(isize, isize); 12] = [
+    (0, -2),
+    (-1, -1),
+    (0, -1),
+    (1, -1),
+    (-2, 0),
+    (-1, 0),
+    (1, 0),
+    (2, 0),
+    (-1, 1),
+    (0, 1),
+    (1, 1),
+    (0, 2),
+];
+
 /// The appearance of all objects against that of the ground.
 #[derive(Debug, Clone)]
 pub(crate) struct Crowd {
@@ -32,6 +55,8 @@ pub(crate) struct Crowd {
     palette: Palette,
     /// Shares of classes on the ground and in objects.
     shares: [Vec<f32>; 2],
+    /// The mean features of the ground and of objects.
+    means: [Feature; 2],
     /// The area of the middle object. Cells.
     pub area: f64,
 }
@@ -43,6 +68,8 @@ pub(crate) struct View {
     block: f64,
     /// Which cells look like objects.
     pub like: Vec<bool>,
+    /// How far each cell is from the mean of the ground, 0, towards that of objects, 1.
+    pub level: Vec<f32>,
     /// The number of the object that covers a cell, from 1; 0 for none.
     pub owner: Vec<usize>,
 }
@@ -68,7 +95,53 @@ impl View {
         if all > 0.0 { like / all } else { 0.0 }
     }
 
-    /// Objects cover these cells from now on.
+    /// The highest level on a line, one cell at a time; or the lowest.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped to the grid"
+    )]
+    pub(crate) fn extreme(&self, from: DVec2, to: DVec2, highest: bool) -> f32 {
+        let steps = from.distance(to).ceil().max(1.0);
+        let (width, height) = self.size;
+        let last = DVec2::new(width as f64 - 1.0, height as f64 - 1.0);
+        let mut k = 0.0;
+        let mut found: Option<f32> = None;
+        while k <= steps {
+            let p = from.lerp(to, k / steps).round().clamp(DVec2::ZERO, last);
+            let level = self.level[p.y as usize * width + p.x as usize];
+            found = Some(match found {
+                Some(found) if highest => found.max(level),
+                Some(found) => found.min(level),
+                None => level,
+            });
+            k += 1.0;
+        }
+        found.unwrap_or(0.0)
+    }
+
+    /// The middle level of a region.
+    pub(crate) fn middle_level(&self, cells: &[usize]) -> f32 {
+        let mut levels: Vec<f32> = cells.iter().map(|&at| self.level[at]).collect();
+        levels.sort_by(f32::total_cmp);
+        levels.get(levels.len() / 2).copied().unwrap_or(0.0)
+    }
+
+    /// Whether a cell lies within two steps of those of another object.
+    pub(crate) fn is_beside_other(&self, at: usize, own: usize) -> bool {
+        let (width, height) = self.size;
+        let (x, y) = ((at % width).cast_signed(), (at / width).cast_signed());
+        STEPS.iter().any(|(i, j)| {
+            let (x, y) = (x + i, y + j);
+            let inside = x >= 0 && y >= 0 && x < width.cast_signed() && y < height.cast_signed();
+            inside && {
+                let owner = self.owner[y.unsigned_abs() * width + x.unsigned_abs()];
+                owner != 0 && owner != own
+            }
+        })
+    }
+
+    /// An object covers these cells from now on, where none does.
     pub(crate) fn cover(&mut self, own: usize, curve: &[DVec2]) {
         let curve = self.to_cells(curve);
         filled(self.size, &curve, |at| {
@@ -102,7 +175,9 @@ impl Crowd {
         }
         let palette = Palette::of(&sample, light.color);
         let shares = shares(&window, &palette, &sides);
+        let means = means(&window, &sides).map(Option::unwrap_or_default);
         Some(Self {
+            means,
             block,
             light,
             palette,
@@ -111,13 +186,14 @@ impl Crowd {
         })
     }
 
-    /// A frame in which objects have those outlines; of `taught` it learns what they look like.
+    /// A frame in which objects have those outlines; of `taught` it learns what they look like. None where objects cannot
+    /// be told from the ground.
     pub(crate) fn view(
         &mut self,
         pixels: &dyn Pixels,
         outlines: &[&[DVec2]],
         taught: &[bool],
-    ) -> View {
+    ) -> Option<View> {
         let size = cells(pixels.size(), self.block);
         let window = whole(pixels, self.block, self.light);
         let owner = owners(size, self.block, outlines);
@@ -126,6 +202,12 @@ impl Crowd {
         let now = shares(&window, &self.palette, &sides);
         for (side, (own, now)) in sides.iter().zip(self.shares.iter_mut().zip(&now)) {
             if !side.is_empty() {
+                let pairs = own.iter_mut().zip(now);
+                pairs.for_each(|(own, now)| *own += LEARN * (now - *own));
+            }
+        }
+        for (own, now) in self.means.iter_mut().zip(means(&window, &sides)) {
+            if let Some(now) = now {
                 let pairs = own.iter_mut().zip(now);
                 pairs.for_each(|(own, now)| *own += LEARN * (now - *own));
             }
@@ -145,13 +227,56 @@ impl Crowd {
             let class = window.class_at(at, &self.palette);
             class.is_some_and(|class| like[usize::from(class)])
         });
-        View {
+        let like: Vec<bool> = like.collect();
+        let share = |side: &[usize]| {
+            let found = side.iter().filter(|&&at| like[at]).count();
+            found as f64 / side.len().max(1) as f64
+        };
+        let [ground, objects] = [share(&sides[0]), share(&sides[1])];
+        let told = ground < MOST_GROUND && (objects > LEAST_OBJECTS || sides[1].is_empty());
+        told.then(|| View {
             size,
             block: self.block as f64,
-            like: like.collect(),
+            like,
+            level: self.levels(&window),
             owner,
-        }
+        })
     }
+}
+
+impl Crowd {
+    /// How far cells are from the ground towards objects: by lightness and color.
+    fn levels(&self, window: &Window) -> Vec<f32> {
+        let [ground, object] = self.means;
+        let way = COLORS.map(|k| object[k] - ground[k]);
+        let size: f32 = way.iter().map(|v| v * v).sum();
+        let one = |feature: &Feature| {
+            let along: f32 = COLORS
+                .iter()
+                .zip(way)
+                .map(|(&k, way)| way * (feature[k] - ground[k]))
+                .sum();
+            if size > 0.0 { along / size } else { 0.0 }
+        };
+        window.features.iter().map(one).collect()
+    }
+}
+
+/// The mean features of cells; None where there are none.
+fn means(window: &Window, sides: &[Vec<usize>; 2]) -> [Option<Feature>; 2] {
+    [0, 1].map(|side: usize| {
+        let mut sum = [0.0_f64; 4];
+        for &at in &sides[side] {
+            let feature = &window.features[at];
+            sum.iter_mut()
+                .zip(feature)
+                .for_each(|(sum, v)| *sum += f64::from(*v));
+        }
+        let count = sides[side].len() as f64;
+        #[allow(clippy::cast_possible_truncation, reason = "a mean of f32")]
+        let mean = sum.map(|sum| (sum / count) as f32);
+        (count > 0.0).then_some(mean)
+    })
 }
 
 /// The middle of some numbers.

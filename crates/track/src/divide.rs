@@ -5,6 +5,7 @@ use glam::DVec2;
 
 use crate::body::{Body, Frame, Step};
 use crate::crowd::View;
+use crate::neck::neck;
 use crate::region::{Rectangle, Region, filled, regions};
 use crate::ring;
 use crate::start::{begun, overlap};
@@ -26,6 +27,14 @@ const FRAMES: usize = 2;
 
 /// An outline found about a region is taken if it shares this much with it.
 const NEARLY: f64 = 0.75;
+
+/// A neck is shorter than this, over the square root of the area.
+const NECK: f64 = 0.35;
+
+/// Parts that touch are two if the level between them is so much lower, as a share of their middle level; and two that
+/// have become one if it is nowhere lower by this.
+const DIP: f32 = 0.35;
+const NO_DIP: f32 = 0.15;
 
 /// A division that may still be undone.
 #[derive(Debug, Clone)]
@@ -53,6 +62,23 @@ pub(crate) fn embodied(
         .flatten()
         .filter(|found| found.len() > 2 && overlap(found, &traced) > NEARLY);
     Body::new(now, &found.unwrap_or(traced))
+}
+
+/// The two parts of a region with a neck that is darker (or otherwise more like the ground) than they are.
+fn necked(whole: &Region, view: &View) -> Option<[Region; 2]> {
+    let curve = whole.outline();
+    let neck = neck(&curve, PART).filter(|neck| neck.narrow < NECK)?;
+    let [from, to] = neck.ends.map(|end| curve[end]);
+    let usual = view.middle_level(&whole.cells);
+    if view.extreme(from, to, true) > (1.0 - DIP) * usual {
+        return None;
+    }
+    let parts = whole.split(from, to);
+    let least = PART * whole.cells.len() as f64;
+    parts
+        .iter()
+        .all(|part| part.cells.len() as f64 >= least)
+        .then_some(parts)
 }
 
 impl Tracker {
@@ -117,12 +143,15 @@ impl Tracker {
     /// The two regions that an object has become.
     fn parts(&self, index: usize, view: &View) -> Option<[Region; 2]> {
         let object = &self.objects[index];
-        if object.step.state == State::Left || object.since + 1 >= self.frame {
+        if object.step.state == State::Left || (object.since > 0 && object.since + 1 >= self.frame)
+        {
             return None;
         }
         let before = view.to_cells(&object.last);
         let here = view.to_cells(&object.body.outline());
-        let area = elastic::signed_area(&before).abs();
+        let mut cells: Vec<usize> = Vec::new();
+        filled(view.size, &before, |at| cells.push(at));
+        let area = cells.len() as f64;
         let margin = BEYOND * ring::radius(&before);
         let both: Vec<DVec2> = before.iter().chain(&here).copied().collect();
         let rectangle = Rectangle::about(&both, margin, view.size);
@@ -131,11 +160,6 @@ impl Tracker {
             view.like[at] && (view.owner[at] == 0 || view.owner[at] == own)
         });
         parts.retain(|part| part.cells.len() as f64 >= PART * area);
-        if parts.len() < 2 {
-            return None;
-        }
-        let mut cells: Vec<usize> = Vec::new();
-        filled(view.size, &before, |at| cells.push(at));
         filled(view.size, &here, |at| cells.push(at));
         cells.sort_unstable();
         parts.retain(|part| {
@@ -147,8 +171,11 @@ impl Tracker {
         });
         let sum: usize = parts.iter().map(|part| part.cells.len()).sum();
         let fits = (sum as f64 / area - 1.0).abs() <= LOST;
+        if let [whole] = parts.as_slice() {
+            parts = necked(whole, view)?.to_vec();
+        }
         let parts: [Region; 2] = parts.try_into().ok()?;
-        (fits && parts.iter().all(|part| !part.at_border)).then_some(parts)
+        fits.then_some(parts)
     }
 
     /// Divisions whose children are not two objects in the frames after are undone.
@@ -235,7 +262,10 @@ impl Tracker {
             .zip([a, b])
             .map(|(area, at)| of(at + 1) / area)
             .collect();
-        let one_region = shares.iter().all(|share| *share > WITHIN);
+        let [from, to] = [&outlines[0], &outlines[1]].map(|outline| ring::middle(outline));
+        let usual = view.middle_level(&largest.cells);
+        let one_region = shares.iter().all(|share| *share > WITHIN)
+            && view.extreme(from, to, false) > (1.0 - NO_DIP) * usual;
         let one_only = seen[0] != seen[1];
         (one_region || one_only)
             .then(|| embodied(image, now, view, &largest, &self.options.fit))

@@ -36,6 +36,7 @@
 //! Units: pixels, x to the right and y down, the first pixel's center at (0, 0); times in frames. This crate reads no
 //! files.
 
+mod assign;
 mod body;
 mod born;
 mod contact;
@@ -46,6 +47,7 @@ mod edges;
 mod error;
 mod evidence;
 mod follow;
+mod neck;
 mod options;
 mod palette;
 mod plane;
