@@ -128,7 +128,7 @@ fn run() -> Result {
             simulation.run(&Until::steps(steps), &mut |_| Continue(()))?;
             let nodes = &simulation.members()[0].state().x;
             away.push(mean(nodes.iter().map(|p| off(*p, real(frame)).abs())));
-            behind.push(elastic::centroid(nodes).distance(oval(real(frame)).0));
+            behind.push(elastic::centroid(nodes).unwrap_or_default().distance(oval(real(frame)).0));
             if [12, 35, 39, 59].contains(&frame) {
                 record.keep(Table::raw(shot(name, frame)).xy("px", EXACT, nodes));
             }
