@@ -15,7 +15,7 @@ fn main() {
         let starts: Vec<(u32, Vec<DVec2>)> = case.start();
         let options = track::Options {
             start: track::Start::Exact,
-            births: starts.len() > 2 || case.name == "divide",
+            births: starts.len() > 2 || case.name == "divide" || std::env::var("BIRTHS").is_ok(),
             ..Default::default()
         };
         let contours: Vec<fit::Contour> = starts

@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use crate::body::lightness;
 use crate::palette::{Feature, Palette, SAMPLE};
-use crate::region::{filled, grown};
+use crate::region::{Region, filled, grown};
 use crate::ring;
 use crate::window::{Lightness, Window, cells, to_cells, to_pixels};
 
@@ -27,6 +27,9 @@ const UNSEEN: f32 = 0.01;
 /// Objects can be told from the ground if less of the ground and more of the objects looks like objects.
 const MOST_GROUND: f64 = 0.4;
 const LEAST_OBJECTS: f64 = 0.6;
+
+/// A region of more than this share of an outline is the whole object.
+const WHOLE: f64 = 0.75;
 
 /// Which features are lightness and color.
 const COLORS: [usize; 3] = [0, 2, 3];
@@ -83,14 +86,12 @@ impl View {
         curve.iter().map(|p| to_pixels(*p, self.block)).collect()
     }
 
-    /// Which share of a curve's cells in the frame looks like objects, and is not another's.
-    pub(crate) fn share(&self, own: usize, curve: &[DVec2]) -> f64 {
+    /// Which share of a curve's cells in the frame looks like objects.
+    pub(crate) fn share(&self, curve: &[DVec2]) -> f64 {
         let (mut like, mut all) = (0.0, 0.0);
         filled(self.size, &self.to_cells(curve), |at| {
             all += 1.0;
-            if self.like[at] && (self.owner[at] == 0 || self.owner[at] == own) {
-                like += 1.0;
-            }
+            like += f64::from(u8::from(self.like[at]));
         });
         if all > 0.0 { like / all } else { 0.0 }
     }
@@ -118,6 +119,13 @@ impl View {
             k += 1.0;
         }
         found.unwrap_or(0.0)
+    }
+
+    /// Whether a region fills most of a curve.
+    pub(crate) fn fills(&self, region: &Region, curve: &[DVec2]) -> bool {
+        let mut all = 0.0;
+        filled(self.size, &self.to_cells(curve), |_| all += 1.0);
+        region.cells.len() as f64 > WHOLE * all
     }
 
     /// The middle level of a region.

@@ -22,6 +22,9 @@ const WITHIN: f64 = 0.5;
 /// How far beyond the object parts are looked for, in radii.
 const BEYOND: f64 = 0.6;
 
+/// An object divides if it was one region so many frames ago or less.
+const LATELY: usize = 2;
+
 /// A division that does not last so many frames is undone.
 const FRAMES: usize = 2;
 
@@ -30,6 +33,10 @@ const NEARLY: f64 = 0.75;
 
 /// A neck is shorter than this, over the square root of the area.
 const NECK: f64 = 0.35;
+
+/// An outline whose neck is longer than this has none; an object is surely seen from this confidence on.
+const NO_NECK: f64 = 0.65;
+const SURE: f64 = 0.85;
 
 /// Parts that touch are two if the level between them is so much lower, as a share of their middle level; and two that
 /// have become one if it is nowhere lower by this.
@@ -81,6 +88,14 @@ fn necked(whole: &Region, view: &View) -> Option<[Region; 2]> {
         .then_some(parts)
 }
 
+/// Whether an object without a neck is seen as it was: then what cuts it is part of it.
+fn is_one(object: &Object) -> bool {
+    let step = &object.step;
+    step.state == State::Seen
+        && step.confidence > SURE
+        && neck(&object.body.outline(), PART).is_none_or(|neck| neck.narrow > NO_NECK)
+}
+
 impl Tracker {
     /// Objects that are two closed regions now divide.
     pub(crate) fn divide(
@@ -92,7 +107,16 @@ impl Tracker {
     ) {
         let mut index = 0;
         while index < self.objects.len() {
-            let bodies = self.parts(index, view).and_then(|[a, b]| {
+            let parts = self.parts(index, view);
+            // what texture alone cuts is cut in all frames
+            let object = &mut self.objects[index];
+            let lately = object.whole.is_some_and(|t| t + LATELY >= self.frame);
+            if matches!(parts.as_slice(), [one] if view.fills(one, &object.body.outline())) {
+                object.whole = Some(self.frame);
+            }
+            let whole = lately && !is_one(object);
+            let parts = if whole { parts } else { Vec::new() };
+            let bodies = self.halves(index, view, parts).and_then(|[a, b]| {
                 let body = |part| embodied(image, now, view, part, &self.options.fit);
                 Some([body(&a)?, body(&b)?])
             });
@@ -140,12 +164,11 @@ impl Tracker {
         }
     }
 
-    /// The two regions that an object has become.
-    fn parts(&self, index: usize, view: &View) -> Option<[Region; 2]> {
+    /// The large regions that lie where an object is or was.
+    fn parts(&self, index: usize, view: &View) -> Vec<Region> {
         let object = &self.objects[index];
-        if object.step.state == State::Left || (object.since > 0 && object.since + 1 >= self.frame)
-        {
-            return None;
+        if object.step.state == State::Left {
+            return Vec::new();
         }
         let before = view.to_cells(&object.last);
         let here = view.to_cells(&object.body.outline());
@@ -168,6 +191,15 @@ impl Tracker {
                 .iter()
                 .filter(|at| cells.binary_search(at).is_ok());
             within.count() as f64 >= WITHIN * part.cells.len() as f64
+        });
+        parts
+    }
+
+    /// The two of them that an object has become.
+    fn halves(&self, index: usize, view: &View, mut parts: Vec<Region>) -> Option<[Region; 2]> {
+        let mut area = 0.0;
+        filled(view.size, &view.to_cells(&self.objects[index].last), |_| {
+            area += 1.0;
         });
         let sum: usize = parts.iter().map(|part| part.cells.len()).sum();
         let fits = (sum as f64 / area - 1.0).abs() <= LOST;

@@ -52,6 +52,8 @@ pub(crate) struct Object {
     /// In which frame it came, and whether the border of the frame cuts it since.
     pub since: usize,
     pub cut: bool,
+    /// In which frame all of it looked like objects last.
+    pub whole: Option<usize>,
     /// Its outline in the frame before. Pixels.
     pub last: Vec<DVec2>,
 }
@@ -349,6 +351,7 @@ impl Object {
             gone: 0,
             since,
             cut: false,
+            whole: None,
         }
     }
 
