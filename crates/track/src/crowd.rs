@@ -359,3 +359,66 @@ fn shares(window: &Window, palette: &Palette, sides: &[Vec<usize>; 2]) -> [Vec<f
             .collect()
     })
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by it")]
+
+    use super::*;
+
+    /// Two discs of radius 12 and different levels; a third one, nearly like the first, that nobody has outlined.
+    const DISCS: [(f64, f64, f64); 3] = [
+        (25.0, 30.0, 160.0),
+        (70.0, 30.0, 220.0),
+        (48.0, 65.0, 165.0),
+    ];
+    const RADIUS: f64 = 12.0;
+
+    fn within(p: DVec2) -> Option<usize> {
+        DISCS
+            .iter()
+            .position(|disc| p.distance(DVec2::new(disc.0, disc.1)) <= RADIUS)
+    }
+
+    #[test]
+    fn what_looks_like_objects_is_found_wherever_it_is() {
+        let image = fit::Image::grey(field::Grid::from_shape_fn((90, 100), |(y, x)| {
+            let p = DVec2::new(x as f64, y as f64);
+            let noise = 10.0 * (field::drawn::uniform(3, (100 * y + x) as u64) - 0.5);
+            noise + within(p).map_or(60.0, |disc| DISCS[disc].2)
+        }));
+        let outlines = [0, 1].map(|disc| {
+            let center = DVec2::new(DISCS[disc].0, DISCS[disc].1);
+            fit::Contour::circle(center, RADIUS).points
+        });
+        let outlines = outlines.each_ref().map(Vec::as_slice);
+        let mut crowd = Crowd::of(image.pixels(), &outlines).unwrap();
+        assert!((crowd.area / (std::f64::consts::PI * 144.0) - 1.0).abs() < 0.02);
+        let view = crowd
+            .view(image.pixels(), &outlines, &[true, true])
+            .unwrap();
+        let wrong = (0..9000).filter(|at| {
+            let p = DVec2::new((at % 100) as f64, (at / 100) as f64);
+            let edge = DISCS
+                .iter()
+                .any(|disc| (p.distance(DVec2::new(disc.0, disc.1)) - RADIUS).abs() < 1.5);
+            !edge && view.like[*at] != within(p).is_some()
+        });
+        assert_eq!(wrong.count(), 0);
+        assert_eq!(view.owner[30 * 100 + 25], 1);
+        assert_eq!(view.owner[30 * 100 + 70], 2);
+        assert_eq!(view.owner[65 * 100 + 48], 0);
+        assert!(view.share(outlines[1]) > 0.95);
+    }
+
+    #[test]
+    fn nothing_is_told_from_a_ground_that_looks_the_same() {
+        let image = fit::Image::grey(field::Grid::from_shape_fn((90, 100), |(y, x)| {
+            200.0 * field::drawn::uniform(3, (100 * y + x) as u64)
+        }));
+        let outline = fit::Contour::circle(DVec2::splat(40.0), RADIUS).points;
+        let outlines = [outline.as_slice()];
+        let mut crowd = Crowd::of(image.pixels(), &outlines).unwrap();
+        assert!(crowd.view(image.pixels(), &outlines, &[true]).is_none());
+    }
+}
