@@ -124,6 +124,10 @@ impl Tracker {
                 index += 1;
                 continue;
             };
+            let Some(bodies) = self.part_again(index, bodies, view, events) else {
+                index += 1;
+                continue;
+            };
             let parent = self.objects[index].clone();
             let children = [self.next_id, self.next_id + 1];
             self.next_id += 2;
@@ -162,6 +166,54 @@ impl Tracker {
             });
             index += 1;
         }
+    }
+
+    /// An object and one that it has hidden are the two parts; else these are given back.
+    fn part_again(
+        &mut self,
+        index: usize,
+        bodies: [Body; 2],
+        view: &mut View,
+        events: &mut Vec<Event>,
+    ) -> Option<[Body; 2]> {
+        let id = self.objects[index].id;
+        let hidden = |object: &Object| object.met == Some(id) && !object.step.state.is_seen();
+        let listed = self.objects.iter().position(hidden);
+        let grave = self.graves.iter().position(|object| object.met == Some(id));
+        let place = match (listed, grave) {
+            (Some(at), _) => at,
+            (None, Some(at)) => {
+                let object = self.graves.remove(at);
+                self.objects.push(object);
+                self.objects.len() - 1
+            }
+            (None, None) => return Some(bodies),
+        };
+        let last = ring::middle(&self.objects[place].body.outline());
+        let far = |body: &Body| ring::middle(&body.outline()).distance(last);
+        let [a, b] = bodies;
+        let (own, other) = if far(&a) < far(&b) { (b, a) } else { (a, b) };
+        for (at, body) in [(index, own), (place, other)] {
+            for owner in &mut view.owner {
+                if *owner == at + 1 {
+                    *owner = 0;
+                }
+            }
+            let object = &mut self.objects[at];
+            object.body = body;
+            object.step = Step::begun();
+            (object.unseen, object.gone, object.met) = (0, 0, None);
+        }
+        for at in [index, place] {
+            view.cover(at + 1, &self.objects[at].body.outline());
+        }
+        events.push(Event {
+            frame: self.frame,
+            id: self.objects[place].id,
+            what: Happening::Found,
+            confidence: 1.0,
+        });
+        None
     }
 
     /// The large regions that lie where an object is or was.

@@ -348,3 +348,30 @@ fn the_number_of_threads_changes_nothing() {
     assert_eq!(one, run(2));
     assert_eq!(one, run(5));
 }
+
+#[test]
+fn what_could_not_be_told_apart_is_two_again_when_it_parts() {
+    // two discs of radius 12 become one, stay so for ten frames and part again
+    let half = |t: usize| match t {
+        0..10 => 20.0 - 2.0 * t as f64,
+        10..20 => 0.0,
+        _ => (1.5 * (t as f64 - 20.0)).min(24.0),
+    };
+    let frame = |t: usize| {
+        drawn(t, |p| {
+            let both = disc(p, 60.0 - half(t), 48.0, 12.0) || disc(p, 60.0 + half(t), 48.0, 12.0);
+            both.then_some(180.0)
+        })
+    };
+    let starts = [circle(40.0, 48.0, 12.0), circle(80.0, 48.0, 12.0)];
+    let all = followed(40, frame, &starts, &options(true));
+    let last = &all[39];
+    assert_eq!(ids(last), [1, 2]);
+    let new = |what: &Happening| matches!(what, Happening::Divided(_) | Happening::Born);
+    assert!(happened(&all, new).is_empty());
+    for x in [36.0, 84.0] {
+        let truth = circle(x, 48.0, 12.0);
+        let best = fits(last, 1, &truth).max(fits(last, 2, &truth));
+        assert!(best > 0.95, "{x}: {best}");
+    }
+}
