@@ -4,11 +4,11 @@ use fit::Image;
 use glam::DVec2;
 
 use crate::body::{Body, Frame, Step};
-use crate::crowd::View;
 use crate::divide::embodied;
 use crate::region::{Rectangle, Region, grown, regions};
 use crate::ring;
 use crate::tracker::{Object, Tracker};
+use crate::view::View;
 use crate::{Event, Happening, State};
 
 /// The least area of a new object, of that of the middle one; and where the border of the frame cuts it.

@@ -4,12 +4,12 @@ use fit::{Contour, Image};
 use glam::DVec2;
 
 use crate::body::{Body, Frame, Step};
-use crate::crowd::View;
 use crate::neck::neck;
 use crate::region::{Rectangle, Region, filled, regions};
 use crate::ring;
 use crate::start::{begun, overlap};
 use crate::tracker::{Object, Tracker};
+use crate::view::View;
 use crate::{Event, Happening, Prediction, Start, State};
 
 /// Two parts are children if each has this share of the object's area, and both together all but this share.

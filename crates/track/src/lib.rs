@@ -68,6 +68,7 @@ mod shape;
 mod start;
 mod tables;
 mod tracker;
+mod view;
 mod window;
 
 pub use body::State;
