@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Outlines as other programs read and write them, compared with what ours does.
+"""Outlines and tracks as other programs read and write them, compared with what ours does.
 
-Called by .ci/run: formats.py CONVERT, where CONVERT is the built example `convert`. What it needs
-from outside is installed into a folder of its own beside the build.
+Called by .ci/run: formats.py CONVERT, where CONVERT is the built example `convert`; the example `tracks` is beside it,
+the program `snake` in the folder above. What it needs from outside is installed into a folder of its own beside the
+build.
 """
 
 import os
@@ -49,6 +50,8 @@ from pycocotools.coco import COCO  # noqa: E402
 from svgelements import SVG, Matrix, Path as SvgPath  # noqa: E402
 
 CONVERT = os.path.abspath(sys.argv[1])
+TRACKS = os.path.join(os.path.dirname(CONVERT), "tracks")
+SNAKE = os.path.join(os.path.dirname(os.path.dirname(CONVERT)), "snake")
 checks = 0
 
 
@@ -315,7 +318,142 @@ def others_read_by_us(folder):
     near(found.symmetric_difference(same).area, 0, "shapely: parts and holes")
 
 
+def run(*words):
+    """Run one of our programs; what it printed."""
+    done = subprocess.run([str(word) for word in words], capture_output=True, text=True)
+    check(done.returncode == 0, " ".join(map(str, words)), done.stderr)
+    return done.stdout
+
+
+def story(folder):
+    """Stars that move: 1 is away in frame 2, 9 has come from 1 in frame 5."""
+    rng = np.random.default_rng(5)
+    rows, all_rings = ["frame,id,x,y"], {}
+    there = {1: [0, 1, 3, 4], 2: range(7), 9: [5, 6]}
+    for number, frames in there.items():
+        for frame in frames:
+            center = np.array([20.3 + 31 * (number % 3) + 1.7 * frame, 24.6 + 14 * (number % 2) + frame])
+            angles = np.arange(19) * 2 * np.pi / 19
+            ring = center + rng.uniform(6, 12, 19)[:, None] * np.stack([np.cos(angles), np.sin(angles)], 1)
+            all_rings[frame, number] = ring
+    for (frame, number), ring in sorted(all_rings.items()):
+        rows += [f"{frame},{number},{x},{y}" for x, y in ring]
+    path = folder / "story.csv"
+    path.write_text("\n".join(rows) + "\n")
+    return path, all_rings
+
+
+def our_tracks_read_by_others(folder):
+    source, rings = story(folder)
+    ids, frames = sorted({number for _, number in rings}), range(7)
+    written = lambda name, kind: (run(TRACKS, source, folder / name, kind, WIDTH, HEIGHT), folder / name)[1]
+    inside = {key: pixels(shapely.Polygon(ring)) for key, ring in rings.items()}
+
+    data = json.loads(written("s.geojson", "geojson").read_text())
+    check(len(data["features"]) == len(rings), "geojson tracks: features")
+    for feature in data["features"]:
+        own = feature["properties"]
+        whole = shapely.geometry.shape(feature["geometry"])
+        same = shapely.affinity.translate(shapely.Polygon(rings[own["frame"], own["track"]]), 0.5, 0.5)
+        near(whole.symmetric_difference(same).area, 0, "geojson tracks: place")
+        check(own.get("parent") == (1 if own["track"] == 9 else None), "geojson tracks: parent", own)
+
+    for roi in roifile.roiread(written("s.zip", "imagej")):
+        frame, number = int(roi.name[5:9]) - 1, int(roi.name.split("_id")[1])
+        check(roi.position == frame + 1, "imagej tracks: position", roi.name, roi.position)
+        near(roi.coordinates(), rings[frame, number] + 0.5, "imagej tracks: coordinates", 1e-4)
+        check(len(roi.stroke_color) == 4 and roi.stroke_color[0] == 255, "imagej tracks: color", roi.stroke_color)
+
+    data = json.loads(written("s.json", "coco").read_text())
+    check(data["videos"][0]["length"] == 7 and data["videos"][0]["file_names"][3] == "f3.png", "coco tracks: video")
+    check([one["id"] for one in data["annotations"]] == ids, "coco tracks: objects")
+    for one in data["annotations"]:
+        for frame in frames:
+            runs, box = one["segmentations"][frame], one["bboxes"][frame]
+            own = inside.get((frame, one["id"]))
+            check((runs is None) == (own is None), "coco tracks: null where away", one["id"], frame)
+            if runs is None:
+                check(box is None and one["areas"][frame] is None, "coco tracks: null where away")
+                continue
+            packed = coco_mask.frPyObjects(runs, HEIGHT, WIDTH)
+            check((coco_mask.decode(packed).astype(bool) == own).all(), "coco tracks: pixels", one["id"], frame)
+            near(coco_mask.area(packed), one["areas"][frame], "coco tracks: area")
+            near(coco_mask.toBbox(packed), box, "coco tracks: box")
+
+    boxes = np.loadtxt(written("s.txt", "mot"), delimiter=",")
+    check(boxes.shape == (len(rings), 10), "mot: lines")
+    for frame, number, left, top, width, height, *_ in boxes:
+        ring = rings[int(frame) - 1, int(number)] + 1.5
+        near([left, top, left + width, top + height], [*ring.min(axis=0), *ring.max(axis=0)], "mot: box")
+
+    # the challenge's rules, by the pixels that tifffile reads
+    path = written("RES", "ctc")
+    images = [tifffile.imread(path / f"mask{frame:03}.tif") for frame in frames]
+    check(all(image.dtype == np.uint16 and image.shape == (HEIGHT, WIDTH) for image in images), "ctc: kind")
+    table = np.loadtxt(path / "res_track.txt", dtype=int, ndmin=2)
+    labels = {label for image in images for label in np.unique(image) if label}
+    check(labels == set(table[:, 0]) and len(labels) == len(table), "ctc: labels are those of the table")
+    for label, begin, end, parent in table:
+        seen = [frame for frame in frames if (images[frame] == label).any()]
+        check(seen == list(range(begin, end + 1)), "ctc: in every frame of the track", label, seen)
+        if parent:
+            check(table[table[:, 0] == parent, 2][0] < begin, "ctc: a parent has ended", label)
+    check(sorted(map(tuple, table[:, 1:3])) == [(0, 1), (0, 6), (3, 4), (5, 6)], "ctc: tracks", table)
+    for frame in frames:
+        union = np.any([own for key, own in inside.items() if key[0] == frame], axis=0)
+        check(((images[frame] > 0) == union).all(), "ctc: pixels", frame)
+
+
+def their_sequences_read_by_us(folder):
+    # labels of the challenge as tifffile writes them, packed or not
+    truth = folder / "TRA"
+    truth.mkdir()
+    expected = {}
+    for frame in range(4):
+        labels = np.zeros((HEIGHT, WIDTH), np.uint16)
+        for number, (x, y) in {7: (20 + frame, 20), 300: (60, 40 + frame)}.items():
+            labels[np.hypot(*np.mgrid[-y:HEIGHT - y, -x:WIDTH - x]) < 9] = number
+            expected[frame, number] = (labels == number).sum()
+        tifffile.imwrite(truth / f"man_track{frame:03}.tif", labels, compression="zlib" if frame % 2 else None)
+    np.savetxt(truth / "man_track.txt", [[7, 0, 3, 0], [300, 0, 3, 0]], fmt="%d")
+    run(TRACKS, truth, folder / "truth.csv")
+    rows = np.loadtxt(folder / "truth.csv", delimiter=",", skiprows=1)
+    for (frame, number), area in expected.items():
+        own = rows[(rows[:, 0] == frame) & (rows[:, 1] == number), 2:]
+        near(shapely.Polygon(own).area, area, "ctc: the area of labels of tifffile")
+
+    # stacks of tifffile, followed; films as Pillow reads them
+    disk = lambda frame: np.clip(12.5 - np.hypot(*np.mgrid[-30:HEIGHT - 30, -20 - 3 * frame:WIDTH - 20 - 3 * frame]), 0, 1)
+    stack = np.stack([60 + 120 * disk(frame) for frame in range(9)])
+    kinds = {"imagej.tif": ((257 * stack).astype(np.uint16), {"imagej": True, "metadata": {"axes": "TYX"}}),
+             "ome.ome.tif": (stack.astype(np.uint8), {"metadata": {"axes": "TYX"}, "compression": "zlib"}),
+             "big.tif": (stack.astype(np.uint8), {"bigtiff": True, "byteorder": ">"}),
+             "floats.tif": ((stack / 255).astype(np.float32), {"photometric": "minisblack"})}
+    for name, (pages, how) in kinds.items():
+        tifffile.imwrite(folder / name, pages, **how)
+        run(SNAKE, "track", folder / name, "--from", "circle:20,30,12", "-q", "-o", folder / "stack.csv",
+            "--overlay", folder / "stack.gif")
+        rows = np.loadtxt(folder / "stack.csv", delimiter=",", skiprows=1)
+        for frame in range(9):
+            middle = np.array(shapely.Polygon(rows[rows[:, 0] == frame, 2:]).centroid.coords[0])
+            near(middle, [20 + 3 * frame, 30], f"{name}: frame {frame}", 0.3)
+        with Image.open(folder / "stack.gif") as film:
+            check(film.n_frames == 9, f"{name}: frames of the film", film.n_frames)
+    run(SNAKE, "track", folder / "big.tif", "--from", "circle:20,30,12", "-q", "-o", folder / "stack.csv",
+        "--overlay", folder / "stack.png")
+    with Image.open(folder / "stack.png") as film:
+        check(film.n_frames == 9 and film.is_animated, "apng: frames", film.n_frames)
+        zoom = film.size[0] // WIDTH
+        for frame in range(9):
+            film.seek(frame)
+            shown = np.array(film.convert("RGB"))
+            level = shown[30 * zoom, (20 + 3 * frame) * zoom]
+            near(level, [180] * 3, f"apng: the middle of the disk in frame {frame}", 1)
+
+
 with tempfile.TemporaryDirectory() as name:
+    our_tracks_read_by_others(Path(name))
+    their_sequences_read_by_us(Path(name))
     ours_read_by_others(Path(name))
     others_read_by_us(Path(name))
 print(f"formats: {checks} comparisons with other programs hold")

@@ -8,33 +8,8 @@
 
 mod common;
 
+use common::moving::{START, disc, frames};
 use common::{Answer, Folder};
-
-/// A bright disc of radius 9 that moves two pixels a frame, as PGM.
-fn disc(frame: usize) -> Vec<u8> {
-    let center = (20.0 + 2.0 * frame as f64, 24.0);
-    let mut bytes = b"P5\n80 48\n255\n".to_vec();
-    for y in 0..48 {
-        for x in 0..80 {
-            let inside = 9.5 - (f64::from(x) - center.0).hypot(f64::from(y) - center.1);
-            bytes.push(common::fits::byte(60.0 + 120.0 * inside.clamp(0.0, 1.0)));
-        }
-    }
-    bytes
-}
-
-const START: [&str; 4] = ["--from", "circle:20,24,9", "--start", "exact"];
-
-/// A folder `in` with so many frames, and masks beside them.
-fn frames(count: usize) -> Folder {
-    let folder = Folder::new();
-    std::fs::create_dir(folder.path("in")).unwrap();
-    for frame in 0..count {
-        folder.write(&format!("in/f{frame}.pgm"), disc(frame));
-        folder.write(&format!("in/f{frame}_mask.pgm"), b"P5\n1 1\n255\n\xff");
-    }
-    folder
-}
 
 fn run(folder: &Folder, more: &[&str]) -> Answer {
     folder.snake(&[&["track", "in"][..], &START, more].concat())
@@ -364,91 +339,5 @@ fn an_outline_that_was_mended_by_hand_is_gone_on_from() {
             .err
             .contains("--mend: frame 1, object 7: no such object"),
         "{answer:?}"
-    );
-}
-
-#[test]
-fn what_makes_no_sense_is_refused_and_nothing_is_written() {
-    let folder = frames(2);
-    folder.write("t.csv", "mine");
-    let refused = |more: &[&str], says: &[&str]| {
-        folder.refused(&[&["track", "in", "-q"][..], &START, more].concat(), says);
-    };
-    refused(
-        &["--as", "xml"],
-        &["--as: must be one of csv, geojson, coco, ctc, imagej, mot, got xml"],
-    );
-    refused(
-        &["-o", "t.doc"],
-        &["--out: t.doc: the ending names no format"],
-    );
-    refused(
-        &["-o", "in/f1.pgm", "--as", "csv"],
-        &["in/f1.pgm is a file that is read"],
-    );
-    refused(
-        &["-o", "in", "--as", "ctc"],
-        &["in is the folder of the frames"],
-    );
-    refused(&["-o", "a.csv", "--measure", "a.csv"], &["taken by --out"]);
-    refused(
-        &["-o", "t.csv", "--no-clobber"],
-        &["t.csv is there already"],
-    );
-    refused(
-        &["--overlay", "o.avi"],
-        &["--overlay: the name must end in .gif"],
-    );
-    refused(
-        &["--kymograph", "k.gif"],
-        &["--kymograph: the name must end in .png or .csv"],
-    );
-    refused(
-        &["--rate", "0"],
-        &["--rate: must be from 0.01 to 100, got 0"],
-    );
-    refused(
-        &["--json"],
-        &["--json: writes to standard output, and so does --out"],
-    );
-    refused(
-        &["-o", "a.zip", "--resume"],
-        &["--resume: goes on with a table"],
-    );
-    refused(
-        &["-o", "a.csv", "--kymograph", "k.png", "--object", "4"],
-        &["no object has the number 4 at first; needed: 1"],
-    );
-    folder.refused(
-        &[
-            "track",
-            "in",
-            "-q",
-            "--from",
-            "circle:500,500,9",
-            "-o",
-            "a.csv",
-        ],
-        &["--from: start 0"],
-    );
-    folder.refused(
-        &["track", "none", "-q", "--from", "circle:20,24,9"],
-        &["none: cannot be read: there is no such file"],
-    );
-    folder.write("in/g1.pgm", disc(1));
-    folder.write("in/g2.pgm", disc(2));
-    refused(
-        &[],
-        &[
-            "holds two sequences",
-            "f0.pgm to f1.pgm (2 files)",
-            "g1.pgm to g2.pgm (2 files)",
-            "needed",
-        ],
-    );
-    folder.write("cut.pgm", &disc(0)[..40]);
-    folder.refused(
-        &["track", "cut.pgm", "-q", "--from", "circle:20,24,9"],
-        &["first frame: cut.pgm: "],
     );
 }

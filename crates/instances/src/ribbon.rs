@@ -1,8 +1,9 @@
 //! The best outline in a band about one that is found: what rays are too coarse for.
 
 use glam::DVec2;
-use search::along::{Polygon, smoothed};
+use search::along::Polygon;
 use search::path::{Costs, Steps};
+use search::smooth::smoothed;
 use search::whole::{at, signed};
 
 use crate::model::{Model, Seed, strength};

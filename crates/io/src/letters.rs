@@ -186,7 +186,7 @@ pub fn draw_text(image: &mut RgbImage, at: DVec2, text: &str, how: &Lettering) {
     }
     let width = (STROKE * unit).max(1.0);
     if let Some(casing) = how.casing {
-        fill(image, &lines, width + 2.0 * unit.max(1.0), casing);
+        fill(image, &lines, width + (1.3 * unit).max(2.0), casing);
     }
     fill(image, &lines, width, how.color);
 }

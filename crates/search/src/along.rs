@@ -3,6 +3,8 @@
 use field::Grid;
 use glam::DVec2;
 
+use crate::smooth::smoothed;
+
 /// A polygon or, where it is not closed, a row of points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
@@ -147,65 +149,54 @@ impl Polygon {
     }
 }
 
-/// Values along a curve, smoothed by a Gaussian of so many nodes; at open ends the last is repeated.
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a few times the number of nodes at most"
-)]
-pub fn smoothed<T>(values: &[T], sigma: f64, closed: bool) -> Vec<T>
-where
-    T: Copy + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
-{
-    let n = values.len();
-    if n == 0 || sigma < 0.1 {
-        return values.to_vec();
+/// A place between four pixels of a grid; beyond its border the last pixel is repeated.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Spot {
+    /// The pixels' numbers: upper left, upper right, lower left, lower right.
+    pub(crate) pixels: [usize; 4],
+    /// How far it lies to the right and below of the first.
+    right: f64,
+    below: f64,
+}
+
+impl Spot {
+    /// A place of a grid of that height and width.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped to the grid first"
+    )]
+    #[inline]
+    pub(crate) fn of((height, width): (usize, usize), p: DVec2) -> Self {
+        let x = p.x.clamp(0.0, (width - 1) as f64);
+        let y = p.y.clamp(0.0, (height - 1) as f64);
+        let (i, j) = (x as usize, y as usize);
+        let (above, below) = (j * width, (j + 1).min(height - 1) * width);
+        let next = (i + 1).min(width - 1);
+        Self {
+            pixels: [above + i, above + next, below + i, below + next],
+            right: x - i as f64,
+            below: y - j as f64,
+        }
     }
-    let reach = (3.0 * sigma)
-        .ceil()
-        .min(if closed { n as f64 / 2.0 } else { n as f64 }) as usize;
-    let weights: Vec<f64> = (0..=reach)
-        .map(|k| (-0.5 * (k as f64 / sigma).powi(2)).exp())
-        .collect();
-    let total = weights[0] + 2.0 * weights[1..].iter().sum::<f64>();
-    // the values again on either side, so that no index needs to be brought back into range
-    let at = |i: isize| {
-        let last = n.cast_signed() - 1;
-        let i = if closed {
-            i.rem_euclid(last + 1)
-        } else {
-            i.clamp(0, last)
-        };
-        values[i.unsigned_abs()]
-    };
-    let around = -reach.cast_signed()..(n + reach).cast_signed();
-    let wide: Vec<T> = around.map(at).collect();
-    (0..n)
-        .map(|i| {
-            let mut sum = wide[i + reach] * weights[0];
-            let (before, after) = (&wide[i..i + reach], &wide[i + reach + 1..=i + 2 * reach]);
-            for ((a, b), weight) in before.iter().rev().zip(after).zip(&weights[1..]) {
-                sum = sum + (*a + *b) * *weight;
-            }
-            sum * total.recip()
-        })
-        .collect()
+
+    /// The value there between those of the four pixels, linear.
+    #[inline]
+    pub(crate) fn between(self, [a, b, c, d]: [f64; 4]) -> f64 {
+        let top = (1.0 - self.right) * a + self.right * b;
+        let bottom = (1.0 - self.right) * c + self.right * d;
+        (1.0 - self.below) * top + self.below * bottom
+    }
 }
 
 /// The value of a grid between its pixels, linear; beyond its border the last pixel is repeated.
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "clamped to the grid first"
-)]
 pub(crate) fn sample(grid: &Grid, p: DVec2) -> f64 {
-    let (height, width) = grid.dim();
-    let x = p.x.clamp(0.0, (width - 1) as f64);
-    let y = p.y.clamp(0.0, (height - 1) as f64);
-    let (i, j) = (x as usize, y as usize);
-    let (a, b) = (x - i as f64, y - j as f64);
-    let (right, below) = ((i + 1).min(width - 1), (j + 1).min(height - 1));
-    let top = (1.0 - a) * grid[[j, i]] + a * grid[[j, right]];
-    let bottom = (1.0 - a) * grid[[below, i]] + a * grid[[below, right]];
-    (1.0 - b) * top + b * bottom
+    let spot = Spot::of(grid.dim(), p);
+    match grid.as_slice() {
+        Some(values) => spot.between(spot.pixels.map(|at| values[at])),
+        None => spot.between(
+            spot.pixels
+                .map(|at| grid[[at / grid.ncols(), at % grid.ncols()]]),
+        ),
+    }
 }

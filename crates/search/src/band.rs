@@ -3,10 +3,11 @@
 use field::Grid;
 use glam::DVec2;
 
-use crate::along::{Polygon, sample, smoothed};
+use crate::along::{Polygon, sample};
 use crate::codebook::unit;
 use crate::edges::{dot, size};
 use crate::path::{Costs, Path};
+use crate::smooth::smoothed;
 use crate::view::View;
 
 /// A curve pays for its bends as if nodes and states were at these distances: state, and nodes as times of that.

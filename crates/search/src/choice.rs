@@ -10,13 +10,16 @@ use crate::along::Polygon;
 use crate::evidence::{Support, on_edge, support};
 use crate::find::{Found, Search, Searched};
 use crate::flood::{flood, purity};
-use crate::near::near;
+use crate::near::Tethered;
 use crate::rules::Rules;
 use crate::view::View;
 use crate::within::{WIDTH, free, within};
 
 /// By how much a curve loose from the start, or along rays, must be closed better than the one about the start.
 const BETTER: f64 = 0.08;
+
+/// By how much a curve loose from the start must be closed better where the one about the start is closed itself.
+const MUCH_BETTER: f64 = 0.2;
 
 /// The tethers of a curve close to the start, and of one loose from it, as times of the usual one.
 const CLOSE: f64 = 10.0;
@@ -61,6 +64,7 @@ const LEAST_PART: f64 = 4.0;
 struct Choice<'a> {
     view: &'a View,
     rules: &'a Rules,
+    tethered: Tethered<'a>,
     found: Vec<Found>,
     taken: usize,
 }
@@ -71,17 +75,19 @@ pub(crate) fn about(pixels: &dyn Pixels, start: &Polygon, rules: &Rules) -> Opti
     let mut choice = Choice {
         view: &view,
         rules,
+        tethered: Tethered::new(&view, rules),
         found: Vec::new(),
         taken: 0,
     };
     choice.beside()?;
     let own = choice.own();
-    // beside the start there is already a closed edge, or one of a single polarity: stay
+    // beside the start there is already a closed edge, or one of a single polarity: stay. A curve that the band does
+    // not hold is not one beside the start.
+    let held = choice.found[0].search == Search::Near;
+    let one_polarity = own.polar > ONE_POLARITY * own.edge;
     let enough = own.whole() > rules.sure
-        || (own.closed > rules.unsure && own.edge > STRONG && own.polar > ONE_POLARITY * own.edge);
-    if !enough {
-        choice.loose();
-    }
+        || (held && own.closed > rules.unsure && own.edge > STRONG && one_polarity);
+    choice.loose(enough);
     // a part without an edge, though the rest has a strong one, may be cut off from the object by a corner of the start
     let cornered = enough && own.edge < own.closed - SLACK;
     if choice.taken == 0 && (!enough || cornered) {
@@ -121,7 +127,7 @@ impl Choice<'_> {
 
     /// The band about the start, or what lies beyond its limits.
     fn beside(&mut self) -> Option<()> {
-        let usual = near(self.view, self.rules, self.rules.tether)?;
+        let usual = self.tethered.best(self.rules.tether)?;
         let own = self.add(Search::Near, &usual.points);
         if usual.limited > LIMITED {
             let other = self.add(
@@ -136,12 +142,14 @@ impl Choice<'_> {
         Some(())
     }
 
-    /// That band with little of a tether.
-    fn loose(&mut self) {
+    /// That band with little of a tether; where the curve about the start is `enough`, only for one that is closed much
+    /// better.
+    fn loose(&mut self, enough: bool) {
         let own = self.own();
-        if let Some(loose) = near(self.view, self.rules, LOOSE * self.rules.tether) {
+        let better = if enough { MUCH_BETTER } else { BETTER };
+        if let Some(loose) = self.tethered.best(LOOSE * self.rules.tether) {
             let whole = self.add(Search::Loose, &loose.points).whole();
-            if whole > LOOSE_SURE * self.rules.sure && whole > own.whole() + BETTER {
+            if whole > LOOSE_SURE * self.rules.sure && whole > own.whole() + better {
                 self.take_last();
             }
         }
@@ -204,7 +212,7 @@ impl Choice<'_> {
             return;
         }
         let own = self.own();
-        if let Some(close) = near(self.view, self.rules, CLOSE * self.rules.tether) {
+        if let Some(close) = self.tethered.best(CLOSE * self.rules.tether) {
             let other = self.add(Search::Close, &close.points);
             let exact = |at: usize| on_edge(self.view, &self.found[at].window);
             let more = own.closed >= other.closed + MORE_CLOSED

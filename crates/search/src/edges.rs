@@ -3,8 +3,9 @@
 use field::{Grid, gaussian_weights};
 use glam::DVec2;
 
-use crate::along::sample;
+use crate::along::Spot;
 use crate::frame::Frame;
+use crate::smooth::folded;
 
 /// σ of the Gaussian that the slopes are taken of, in pixels of the window.
 const SIGMA: f64 = 1.2;
@@ -18,8 +19,10 @@ const STEEP: f64 = 0.1;
 /// The slopes of a window's channels.
 #[derive(Debug)]
 pub(crate) struct Edges {
-    /// Slopes along x and y, channel by channel.
-    slopes: Vec<[Grid; 2]>,
+    /// Slopes along x and y of each pixel, channel by channel.
+    slopes: Vec<[f64; 2]>,
+    channels: usize,
+    dim: (usize, usize),
     /// The slope that counts as half an edge.
     half: f64,
     /// The least that it may be, for noise.
@@ -34,14 +37,26 @@ pub(crate) type Across = [f64; 3];
 impl Edges {
     /// The slopes of a window; those where `counts` is true say how steep an edge is.
     pub(crate) fn of(frame: &Frame, counts: impl Fn(usize) -> bool) -> Self {
-        let slopes: Vec<[Grid; 2]> = frame
-            .channels
-            .iter()
-            .map(|channel| scharr(&blurred(channel, SIGMA)))
-            .collect();
-        let mut sizes: Vec<f64> = (0..frame.known.len())
-            .filter(|&at| counts(at))
-            .map(|at| size_at(&slopes, at))
+        let channels = frame.channels.len();
+        let mut slopes = vec![[0.0; 2]; channels * frame.known.len()];
+        for (c, channel) in frame.channels.iter().enumerate() {
+            scharr(
+                &blurred(channel, SIGMA),
+                slopes.iter_mut().skip(c).step_by(channels),
+            );
+        }
+        let mut sizes: Vec<f64> = slopes
+            .chunks_exact(channels)
+            .enumerate()
+            .filter(|(at, _)| counts(*at))
+            .map(|(_, pixel)| {
+                pixel
+                    .as_flattened()
+                    .iter()
+                    .map(|v| v * v)
+                    .sum::<f64>()
+                    .sqrt()
+            })
             .collect();
         let noise = noise(frame, &counts);
         // what the slopes of a Gaussian leave of white noise
@@ -52,6 +67,8 @@ impl Edges {
             .max(noisy);
         Self {
             slopes,
+            channels,
+            dim: frame.dim(),
             half,
             least: noisy,
             noise,
@@ -60,11 +77,27 @@ impl Edges {
 
     /// The slopes of the channels along a normal.
     pub(crate) fn across(&self, p: DVec2, normal: DVec2) -> Across {
+        let spot = Spot::of(self.dim, p);
         let mut across = [0.0; 3];
-        for (one, [x, y]) in across.iter_mut().zip(&self.slopes) {
-            *one = normal.x * sample(x, p) + normal.y * sample(y, p);
+        if self.channels == 1 {
+            self.along(spot, normal, &mut across[..1]);
+        } else {
+            self.along(spot, normal, &mut across);
         }
         across
+    }
+
+    /// The same of so many channels.
+    #[inline(always)]
+    fn along(&self, spot: Spot, normal: DVec2, across: &mut [f64]) {
+        let count = across.len();
+        let pixels = spot
+            .pixels
+            .map(|at| &self.slopes[at * count..(at + 1) * count]);
+        for (c, one) in across.iter_mut().enumerate() {
+            let slope = |axis: usize| spot.between(pixels.map(|pixel| pixel[c][axis]));
+            *one = normal.x * slope(0) + normal.y * slope(1);
+        }
     }
 
     /// How much of an edge a slope is, from 0 to 1: half where it is as steep as three quarters of the window are not.
@@ -129,15 +162,6 @@ pub(crate) fn dot(a: Across, b: Across) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The size of the slopes of a pixel, by its number.
-fn size_at(slopes: &[[Grid; 2]], at: usize) -> f64 {
-    let squares = slopes.iter().flatten().map(|grid| {
-        let value = grid.as_slice().map_or(0.0, |list| list[at]);
-        value * value
-    });
-    squares.sum::<f64>().sqrt()
-}
-
 /// A channel smoothed by a Gaussian; beyond the border the last pixel is repeated.
 pub(crate) fn blurred(channel: &Grid, sigma: f64) -> Grid {
     let (height, width) = channel.dim();
@@ -147,25 +171,45 @@ pub(crate) fn blurred(channel: &Grid, sigma: f64) -> Grid {
     for weight in &mut weights {
         *weight /= total;
     }
-    let mut rows = Grid::zeros((height, width));
-    for (from, mut to) in channel.rows().into_iter().zip(rows.rows_mut()) {
-        for (x, value) in to.iter_mut().enumerate() {
-            let mut sum = weights[0] * from[x];
-            for (k, weight) in weights.iter().enumerate().skip(1) {
-                sum += weight * (from[x.saturating_sub(k)] + from[(x + k).min(width - 1)]);
-            }
-            *value = sum;
+    let reach = weights.len() - 1;
+    let mut rows = vec![0.0; height * width];
+    let mut wide = vec![0.0; width + 2 * reach];
+    for (from, to) in channel
+        .rows()
+        .into_iter()
+        .zip(rows.chunks_exact_mut(width.max(1)))
+    {
+        wide[..reach].fill(from[0]);
+        for (wide, value) in wide[reach..].iter_mut().zip(from) {
+            *wide = *value;
         }
+        wide[reach + width..].fill(from[width - 1]);
+        folded(&wide, 1, &weights, to);
     }
     let mut out = Grid::zeros((height, width));
-    for (y, mut to) in out.rows_mut().into_iter().enumerate() {
-        to.scaled_add(weights[0], &rows.row(y));
-        for (k, &weight) in weights.iter().enumerate().skip(1) {
-            to.scaled_add(weight, &rows.row(y.saturating_sub(k)));
-            to.scaled_add(weight, &rows.row((y + k).min(height - 1)));
-        }
+    if let Some(out) = out.as_slice_mut() {
+        down(&rows, width, &weights, out);
     }
     out
+}
+
+lanes::wide! {
+    /// Rows of that width smoothed down their columns by weights; beyond the first and the last row these are repeated.
+    fn down(rows: &[f64], width: usize, weights: &[f64], out: &mut [f64]) {
+        let height = rows.len() / width.max(1);
+        let row = |y: usize| &rows[y * width..(y + 1) * width];
+        for (y, to) in out.chunks_exact_mut(width.max(1)).enumerate() {
+            for (to, own) in to.iter_mut().zip(row(y)) {
+                *to = weights[0] * own;
+            }
+            for (k, weight) in weights.iter().enumerate().skip(1) {
+                let both = row(y.saturating_sub(k)).iter().zip(row((y + k).min(height - 1)));
+                for (to, (above, below)) in to.iter_mut().zip(both) {
+                    *to = *to + weight * above + weight * below;
+                }
+            }
+        }
+    }
 }
 
 #[allow(
@@ -177,15 +221,14 @@ fn cut(sigma: f64) -> usize {
     (4.0 * sigma).ceil() as usize
 }
 
-/// Slopes along x and y by Scharr's masks, per pixel; at the border the last pixel is repeated.
-fn scharr(grid: &Grid) -> [Grid; 2] {
+/// Slopes along x and y of all pixels by Scharr's masks, per pixel; at the border the last pixel is repeated.
+fn scharr<'a>(grid: &Grid, mut slopes: impl Iterator<Item = &'a mut [f64; 2]>) {
     let (height, width) = grid.dim();
     let side = |v: usize, n: usize| (v.saturating_sub(1), (v + 1).min(n - 1));
-    let mut slopes = [Grid::zeros((height, width)), Grid::zeros((height, width))];
     for y in 0..height {
         let (up, down) = side(y, height);
         let (above, here, below) = (grid.row(up), grid.row(y), grid.row(down));
-        for x in 0..width {
+        for (x, slope) in (0..width).zip(&mut slopes) {
             let (left, right) = side(x, width);
             let across = 3.0 * (above[right] - above[left])
                 + 10.0 * (here[right] - here[left])
@@ -193,11 +236,9 @@ fn scharr(grid: &Grid) -> [Grid; 2] {
             let along = 3.0 * (below[left] - above[left])
                 + 10.0 * (below[x] - above[x])
                 + 3.0 * (below[right] - above[right]);
-            slopes[0][[y, x]] = across / 32.0;
-            slopes[1][[y, x]] = along / 32.0;
+            *slope = [across / 32.0, along / 32.0];
         }
     }
-    slopes
 }
 
 /// The value that such a share of all are below; 0 of none.

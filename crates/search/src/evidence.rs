@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 
-use crate::along::{Polygon, smoothed};
+use crate::along::Polygon;
 use crate::edges::{Across, dot, percentile, size};
+use crate::smooth::smoothed;
 use crate::view::View;
 
 /// Points that a curve is judged at.

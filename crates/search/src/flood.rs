@@ -7,9 +7,9 @@
 use field::Grid;
 use glam::DVec2;
 
-use crate::along::smoothed;
 use crate::edges::blurred;
 use crate::rules::Rules;
+use crate::smooth::smoothed;
 use crate::view::View;
 use crate::within::{WIDTH, free};
 
@@ -46,7 +46,12 @@ pub(crate) fn flood(view: &View, rules: &Rules, curve: &[DVec2]) -> Option<Vec<D
     if purity(view, &inside) < rules.pure - LOSS {
         return None; // the bands below would be for nothing
     }
-    let outline = border(&inside, view.frame.dim())?;
+    let mut outline = border(&inside, view.frame.dim())?;
+    // from where the start begins, so that it turns with it
+    let begin = *view.start.points.first()?;
+    let away = |&a: &usize| outline[a].distance_squared(begin);
+    let first = (0..outline.len()).min_by(|a, b| away(a).total_cmp(&away(b)))?;
+    outline.rotate_left(first);
     let outline = smoothed(&outline, ALONG, true);
     Some(free(view, rules, outline, WIDTH))
 }

@@ -4,6 +4,8 @@
 //! area has a radius of about [`RADIUS`] pixels: what a search costs does not depend on the size
 //! of the picture, and little on that of the object.
 
+use std::ops::Range;
+
 use field::{Grid, Pixels};
 use glam::DVec2;
 
@@ -45,8 +47,9 @@ impl Frame {
         let scale = (RADIUS / (zoom * radius)).min(MOST_ENLARGED);
         let (low, high) = start.bounds();
         let around = DVec2::splat(margin * radius);
-        let corner = (low - around).floor() - 0.5;
-        let size = ((high + around - corner) * scale).ceil();
+        let size = ((high - low + 2.0 * around) * scale).ceil();
+        // about its middle, so that a picture that is turned has the same window
+        let corner = 0.5 * (low + high) - 0.5 * size / scale;
         Self::sampled(pixels, corner, scale, size)
     }
 
@@ -70,30 +73,27 @@ impl Frame {
         let count = if color { 3 } else { 1 };
         let mut channels = vec![Grid::zeros((height, width)); count];
         let mut known = Grid::zeros((height, width));
-        // sums of one row of the window over columns of the picture, one channel after the other and then the weight
+        // rows of the picture, each resampled along x once: three channels and the weight
+        let mut made: Vec<(usize, Vec<[f64; 4]>)> = Vec::new();
         let mut sums = vec![[0.0_f64; 4]; width];
         let mut empty = false;
         for y in 0..height {
             sums.fill([0.0; 4]);
-            for &(row, row_weight) in &rows.taps[y] {
-                for (sum, taps) in sums.iter_mut().zip(&columns.taps) {
-                    for &(column, column_weight) in taps {
-                        if pixels.valid().is_some_and(|valid| !valid[[row, column]]) {
-                            continue;
-                        }
-                        let weight = row_weight * column_weight;
-                        let values = if color {
-                            pixels.color(column, row)
-                        } else {
-                            [pixels.level(column, row), 0.0, 0.0]
-                        };
-                        if values.iter().any(|value| !value.is_finite()) {
-                            continue;
-                        }
-                        for (sum, value) in sum.iter_mut().zip(values) {
-                            *sum += weight * value;
-                        }
-                        sum[3] += weight;
+            for &(row, weight) in &rows.taps[y] {
+                if made.iter().all(|(made, _)| *made != row) {
+                    if made.len() == KEPT {
+                        made.rotate_left(1);
+                        made.truncate(KEPT - 1);
+                    }
+                    made.push((row, columns.resampled(pixels, row)));
+                }
+                let values = made.iter().find(|(made, _)| *made == row);
+                for (sums, values) in sums
+                    .iter_mut()
+                    .zip(values.iter().flat_map(|(_, list)| list))
+                {
+                    for (sum, value) in sums.iter_mut().zip(values) {
+                        *sum += weight * value;
                     }
                 }
             }
@@ -185,7 +185,7 @@ fn fill(channels: &mut [Grid], known: &Grid) {
     }
 }
 
-/// The least difference of neighbouring pixels that is not 0, on some lines of a part of a picture; 0
+/// The least difference of neighbouring pixels that is not 0, on some rows and columns of a part of a picture; 0
 /// where there is none.
 #[allow(
     clippy::cast_possible_truncation,
@@ -197,17 +197,26 @@ fn least_step(pixels: &dyn Pixels, corner: DVec2, size: DVec2) -> f64 {
     let range = |from: f64, size: f64, most: usize| {
         let from = from.clamp(0.0, (most - 1) as f64);
         let to = (from + size).clamp(0.0, most as f64);
-        (from as usize, to as usize)
+        from as usize..to as usize
     };
-    let (left, right) = range(corner.x, size.x, width);
-    let (top, bottom) = range(corner.y, size.y, height);
+    let columns = range(corner.x, size.x, width);
+    let rows = range(corner.y, size.y, height);
+    let some = |range: &Range<usize>| range.clone().step_by(range.len().div_ceil(16).max(1));
     let mut least = f64::INFINITY;
-    for y in (top..bottom).step_by((bottom - top).div_ceil(16).max(1)) {
-        for x in left + 1..right {
-            let step = (pixels.level(x, y) - pixels.level(x - 1, y)).abs();
-            if step > 0.0 && step.is_finite() {
-                least = least.min(step);
-            }
+    let mut see = |a: f64, b: f64| {
+        let step = (a - b).abs();
+        if step > 0.0 && step.is_finite() {
+            least = least.min(step);
+        }
+    };
+    for y in some(&rows) {
+        for x in columns.clone().skip(1) {
+            see(pixels.level(x, y), pixels.level(x - 1, y));
+        }
+    }
+    for x in some(&columns) {
+        for y in rows.clone().skip(1) {
+            see(pixels.level(x, y), pixels.level(x, y - 1));
         }
     }
     if least.is_finite() { least } else { 0.0 }
@@ -232,6 +241,9 @@ fn to_percent(grid: &mut Grid, known: &Grid) -> f64 {
         0.0
     }
 }
+
+/// Rows that are kept for the next row of the window: the last two of one are the first of the next.
+const KEPT: usize = 3;
 
 /// Which pixels of one line of the picture make each pixel of one line of the window.
 struct Line {
@@ -289,5 +301,39 @@ impl Line {
             taps: (0..count).map(taps).collect(),
             within: (0..count).map(within).collect(),
         }
+    }
+
+    /// A row of the picture along this line: sums of three channels, of a grey one the first, and of the weights of the
+    /// pixels that count.
+    fn resampled(&self, pixels: &dyn Pixels, row: usize) -> Vec<[f64; 4]> {
+        let ends = self.taps.iter().flatten().map(|(column, _)| *column);
+        let first = ends.clone().min().unwrap_or(0);
+        let last = ends.max().unwrap_or(0);
+        let color = pixels.is_color();
+        let valid = pixels.valid();
+        let values: Vec<[f64; 4]> = (first..=last)
+            .map(|column| {
+                if valid.is_some_and(|valid| !valid[[row, column]]) {
+                    return [0.0; 4];
+                }
+                let [a, b, c] = if color {
+                    pixels.color(column, row)
+                } else {
+                    [pixels.level(column, row), 0.0, 0.0]
+                };
+                let finite = a.is_finite() && b.is_finite() && c.is_finite();
+                if finite { [a, b, c, 1.0] } else { [0.0; 4] }
+            })
+            .collect();
+        let sum = |taps: &Vec<(usize, f64)>| {
+            let mut sum = [0.0; 4];
+            for &(column, weight) in taps {
+                for (sum, value) in sum.iter_mut().zip(values[column - first]) {
+                    *sum += weight * value;
+                }
+            }
+            sum
+        };
+        self.taps.iter().map(sum).collect()
     }
 }

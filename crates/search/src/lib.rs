@@ -37,7 +37,9 @@ mod line;
 mod near;
 pub mod path;
 mod rules;
+pub mod smooth;
 mod view;
+mod walk;
 pub mod whole;
 mod within;
 

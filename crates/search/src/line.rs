@@ -1,6 +1,6 @@
 //! The search about an open curve.
 
-use crate::along::{Polygon, smoothed};
+use crate::along::Polygon;
 use crate::band::{Band, bend};
 use crate::edges::{Across, dot, size};
 use crate::evidence::support;
@@ -8,6 +8,7 @@ use crate::find::{Found, Search, Searched};
 use crate::near::STEP;
 use crate::path::Steps;
 use crate::rules::Rules;
+use crate::smooth::smoothed;
 use crate::view::View;
 use std::f64::consts::TAU;
 

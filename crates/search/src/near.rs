@@ -1,5 +1,6 @@
 //! The tethered search: the best curve in a band about the start.
 
+use field::Grid;
 use glam::DVec2;
 
 use crate::band::{Band, bend};
@@ -28,36 +29,68 @@ pub(crate) struct Near {
     pub limited: f64,
 }
 
-/// With `tether` as the price of a curve one radius from the start.
-pub(crate) fn near(view: &View, rules: &Rules, tether: f64) -> Option<Near> {
-    let r = view.radius;
-    let (from, to) = (-rules.inward * r, rules.outward * r);
-    let band = Band::along(&view.start, NODES, (from, to), STEP);
-    let spacing = view.start.length() / NODES as f64;
-    let steps = Steps {
-        bend: bend(STEP, spacing),
-        reach: REACH,
-    };
-    let unsigned = if view.is_forced() { 0.0 } else { UNSIGNED };
-    let mut inside = view.core();
-    let mut found: Option<Path> = None;
-    for _ in 0..ROUNDS {
-        let likelihood = view.likelihood(&inside);
-        let costs = band.costs(view, &likelihood, rules.region, |_, k, p, normal| {
-            let away = (from + k as f64 * STEP) / r;
-            let across = view.edges.across(p, normal);
+/// The band about the start, with the strength of the edge at each of its places: the same for every tether.
+pub(crate) struct Tethered<'a> {
+    view: &'a View,
+    rules: &'a Rules,
+    band: Band,
+    /// Offset of the innermost places from the start.
+    from: f64,
+    strengths: Vec<f64>,
+    /// How much likelier each pixel is inside than outside, before anything is found.
+    likelihood: Grid,
+}
+
+impl<'a> Tethered<'a> {
+    pub(crate) fn new(view: &'a View, rules: &'a Rules) -> Self {
+        let r = view.radius;
+        let (from, to) = (-rules.inward * r, rules.outward * r);
+        let band = Band::along(&view.start, NODES, (from, to), STEP);
+        let unsigned = if view.is_forced() { 0.0 } else { UNSIGNED };
+        let strength = |node: usize, k: usize| {
+            let across = view
+                .edges
+                .across(band.place(node, k as f64), band.nodes[node].normal);
             let slope = unsigned * size(across) + (1.0 - unsigned) * view.signed(across).max(0.0);
-            tether * away * away - view.edges.strength(slope)
-        });
-        let path = costs.closed_path(steps)?;
-        inside = view.inside(&band.curve(&path));
-        found = Some(path);
+            view.edges.strength(slope)
+        };
+        let places = (0..NODES).flat_map(|node| (0..band.states).map(move |k| (node, k)));
+        let strengths = places.map(|(node, k)| strength(node, k)).collect();
+        Self {
+            view,
+            rules,
+            from,
+            strengths,
+            likelihood: view.likelihood(&view.core()),
+            band,
+        }
     }
-    let path = found?;
-    let end = |&&k: &&usize| k == 0 || k + 1 == band.states;
-    let limited = path.states.iter().filter(end).count() as f64 / NODES as f64;
-    Some(Near {
-        points: band.curve(&path),
-        limited,
-    })
+
+    /// The best curve with `tether` as the price of one that is a radius from the start.
+    pub(crate) fn best(&self, tether: f64) -> Option<Near> {
+        let Self { view, band, .. } = self;
+        let r = view.radius;
+        let spacing = view.start.length() / NODES as f64;
+        let steps = Steps {
+            bend: bend(STEP, spacing),
+            reach: REACH,
+        };
+        let searched = |likelihood: &Grid| -> Option<Path> {
+            let costs = band.costs(view, likelihood, self.rules.region, |node, k, _, _| {
+                let away = (self.from + k as f64 * STEP) / r;
+                tether * away * away - self.strengths[node * band.states + k]
+            });
+            costs.closed_path(steps)
+        };
+        let mut path = searched(&self.likelihood)?;
+        for _ in 1..ROUNDS {
+            path = searched(&view.likelihood(&view.inside(&band.curve(&path))))?;
+        }
+        let end = |&&k: &&usize| k == 0 || k + 1 == band.states;
+        let limited = path.states.iter().filter(end).count() as f64 / NODES as f64;
+        Some(Near {
+            points: band.curve(&path),
+            limited,
+        })
+    }
 }

@@ -231,10 +231,10 @@ impl View {
     pub(crate) fn first_likelihood(&self, around: f64) -> Grid {
         let known = self.frame.known.as_slice().unwrap_or(&[]);
         let far = FAR * (1.0 - around);
-        let ratios = self.codebook.ratios(
-            |at| known[at] > 0.0 && self.depth[at] > 0.0,
-            |at| known[at] > 0.0 && self.depth[at] < far,
-        );
+        let ratios = self.codebook.ratios(|at| {
+            let depth = self.depth[at];
+            (known[at] > 0.0 && (depth > 0.0 || depth < far)).then_some(depth > 0.0)
+        });
         self.codebook.map(&ratios, self.frame.dim())
     }
 
@@ -252,10 +252,11 @@ impl View {
 
     fn ratios(&self, inside: &[bool]) -> Ratios {
         let known = self.frame.known.as_slice().unwrap_or(&[]);
-        self.codebook.ratios(
-            |at| inside[at] && known[at] > 0.0 && self.depth[at] > -INSIDE_REACH,
-            |at| !inside[at] && known[at] > 0.0 && self.depth[at] > -MODEL_REACH,
-        )
+        let reach = [-MODEL_REACH, -INSIDE_REACH];
+        self.codebook.ratios(|at| {
+            let inside = inside[at];
+            (known[at] > 0.0 && self.depth[at] > reach[usize::from(inside)]).then_some(inside)
+        })
     }
 
     /// The slope along a normal against the polarity: above 0 from the color of the object to that of its ground.

@@ -110,7 +110,10 @@ impl Whole {
         let codebook = self
             .codebook
             .get_or_init(|| Codebook::of(&self.frame, |at| known(&self.frame, at)));
-        let ratios = codebook.ratios(|at| counts(inside, at), |at| counts(outside, at));
+        let ratios = codebook.ratios(|at| {
+            let inside = counts(inside, at);
+            (inside || counts(outside, at)).then_some(inside)
+        });
         codebook.map(&ratios, self.frame.dim())
     }
 

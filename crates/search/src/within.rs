@@ -127,8 +127,12 @@ pub(crate) fn rays(view: &View, (from, to): (f64, f64)) -> Option<Band> {
         };
         (0..n).map(crossing).fold(0.0, f64::max)
     };
+    // the first through the start's first point, so that they turn with it
+    let first = (*points.first()? - center)
+        .try_normalize()
+        .unwrap_or(DVec2::X);
     let rays: Vec<(DVec2, f64)> = (0..RAYS)
-        .map(|i| DVec2::from_angle(i as f64 * std::f64::consts::TAU / RAYS as f64))
+        .map(|i| DVec2::from_angle(i as f64 * std::f64::consts::TAU / RAYS as f64).rotate(first))
         .map(|ray| (ray, out(ray)))
         .collect();
     let outer = Polygon {

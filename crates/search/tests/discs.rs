@@ -163,3 +163,42 @@ fn an_open_curve_finds_a_line_of_edge() {
         found.taken().support
     );
 }
+
+/// A picture turned clockwise by a right angle, and a place in it.
+fn turned(picture: &Grid) -> Grid {
+    let (height, width) = picture.dim();
+    Grid::from_shape_fn((width, height), |(y, x)| picture[[height - 1 - x, y]])
+}
+
+#[test]
+fn a_picture_that_is_turned_has_the_same_outline() {
+    // two blobs with texture: rays, bands and regions all have something to find
+    let ground = picture(|v| v);
+    let blob = |p: DVec2| (-(p - DVec2::new(104.0, 60.0)).length_squared() / 300.0).exp();
+    let picture = Grid::from_shape_fn(ground.dim(), |(y, x)| {
+        ground[[y, x]] + 90.0 * blob(DVec2::new(x as f64, y as f64))
+    });
+    let rules = Rules::default();
+    for start in [
+        circle(CENTER + DVec2::new(2.0, -1.0), 1.1 * RADIUS),
+        circle(CENTER + DVec2::new(6.3, 2.0), 1.7 * RADIUS),
+        circle(CENTER - DVec2::new(2.0, 1.0), 0.5 * RADIUS),
+    ] {
+        let found = find(&picture, &start, &rules).unwrap();
+        let (mut picture, mut start) = (picture.clone(), start);
+        let mut wanted = found.taken().points.clone();
+        for _ in 0..3 {
+            let last = picture.nrows() as f64 - 1.0;
+            let turn = |p: DVec2| DVec2::new(last - p.y, p.x);
+            start.points.iter_mut().for_each(|p| *p = turn(*p));
+            wanted.iter_mut().for_each(|p| *p = turn(*p));
+            picture = turned(&picture);
+            let other = find(&picture, &start, &rules).unwrap();
+            assert_eq!(found.taken().search, other.taken().search);
+            assert_eq!(wanted.len(), other.taken().points.len());
+            let apart = wanted.iter().zip(&other.taken().points);
+            let apart = apart.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+            assert!(apart < 1e-6, "{apart}");
+        }
+    }
+}

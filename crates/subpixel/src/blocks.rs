@@ -45,6 +45,11 @@ impl<'a> Blocks<'a> {
         self.mean(x, y, |x, y| self.pixels.color(x, y))
     }
 
+    /// Whether all pixels of the picture count.
+    pub(crate) fn all_count(self) -> bool {
+        self.pixels.valid().is_none()
+    }
+
     /// Whether all pixels of a block count.
     pub(crate) fn counts(self, x: usize, y: usize) -> bool {
         self.pixels

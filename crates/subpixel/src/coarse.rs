@@ -1,8 +1,9 @@
 //! The way from an outline that may be several pixels off to within reach of the edge.
 
 use glam::DVec2;
-use search::along::{Polygon, smoothed};
+use search::along::Polygon;
 use search::path::{Costs, Steps};
+use search::smooth::smoothed;
 
 use crate::blocks::Blocks;
 use crate::patch::Patch;

@@ -84,10 +84,43 @@ impl<'a, const N: usize> Part<'a, N> {
         (self.at)(&self.pixels, x, y)
     }
 
+    /// The same where all pixels that count are copied.
+    #[inline]
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "cut to whole numbers that are compared with the size"
+    )]
+    fn within(&self, p: DVec2) -> Option<[f64; N]> {
+        // beyond the left or upper side there is no such number of a pixel
+        let (x, y) = (p.x - self.left as f64 - 1.0, p.y - self.top as f64 - 1.0);
+        if self.copied.is_empty() || !(x >= 0.0 && y >= 0.0) {
+            return None;
+        }
+        let (i, j) = (x as usize, y as usize);
+        if i + 4 > self.width || j + 4 > self.height {
+            return None;
+        }
+        let (across, down) = (weights(x - i as f64), weights(y - j as f64));
+        let mut sum = [0.0; N];
+        for (row, weight) in (j..j + 4).zip(down) {
+            let first = row * self.width + i;
+            for (values, share) in self.copied[first..first + 4].iter().zip(across) {
+                for (sum, value) in sum.iter_mut().zip(values) {
+                    *sum += weight * share * value;
+                }
+            }
+        }
+        Some(sum)
+    }
+
     /// The picture between its pixels by cubic convolution (\[keys81\], a = −1/2); beyond the border the
     /// last pixel is
     /// repeated.
     pub(crate) fn sample(&self, p: DVec2) -> [f64; N] {
+        if let Some(sum) = self.within(p) {
+            return sum;
+        }
         let (width, height) = self.pixels.size();
         let corner = p.floor();
         let (across, down) = (weights(p.x - corner.x), weights(p.y - corner.y));

@@ -1,7 +1,7 @@
 //! A picture along the normals of a curve: one row of levels a node, from the inside out.
 
 use glam::DVec2;
-use search::along::smoothed;
+use search::smooth::smoothed;
 
 use crate::blocks::Blocks;
 use crate::patch::{Part, Patch, clamped};
@@ -69,13 +69,14 @@ impl Profiles {
         for level in levels.iter_mut().filter(|level| !level.is_finite()) {
             *level = 0.0;
         }
+        let all = pixels.all_count();
         let whole = (0..points.len()).map(|i| {
             let place = |k: usize| points[i] + offset(k) * normals[i];
             let counts = |k: usize| {
                 let (x, y) = nearest(pixels.size(), place(k));
                 pixels.counts(x, y)
             };
-            finite[i] && (0..count).all(counts)
+            finite[i] && (all || (0..count).all(counts))
         });
         Self {
             levels,

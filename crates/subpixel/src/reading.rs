@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use search::along::smoothed;
+use search::smooth::smoothed;
 
 use crate::normal::{density, distribution};
 use crate::profile::{NOISE_LEFT, Profiles, SAMPLE};

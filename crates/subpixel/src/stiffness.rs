@@ -2,7 +2,7 @@
 
 use banded::{Factor, Pentadiagonal};
 use glam::DVec2;
-use search::along::smoothed;
+use search::smooth::smoothed;
 
 /// Lengths ℓ of the stiffness that are tried: waves shorter than 2π ℓ are smoothed. Pixels.
 const LENGTHS: [f64; 8] = [1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0];
@@ -154,15 +154,18 @@ pub(crate) fn rest_shape(points: &[DVec2], sigma: f64, closed: bool) -> Vec<DVec
 /// The ellipse of a closed curve's lowest waves (\[kuhl82\]).
 fn ellipse(points: &[DVec2]) -> Vec<DVec2> {
     let n = points.len() as f64;
-    let turn = |i: usize| DVec2::from_angle(std::f64::consts::TAU * i as f64 / n);
+    let turns: Vec<DVec2> = (0..points.len())
+        .map(|i| DVec2::from_angle(std::f64::consts::TAU * i as f64 / n))
+        .collect();
     let (mut mean, mut cosine, mut sine) = (DVec2::ZERO, DVec2::ZERO, DVec2::ZERO);
-    for (i, p) in points.iter().enumerate() {
+    for (p, turn) in points.iter().zip(&turns) {
         mean += *p / n;
-        cosine += *p * (2.0 * turn(i).x / n);
-        sine += *p * (2.0 * turn(i).y / n);
+        cosine += *p * (2.0 * turn.x / n);
+        sine += *p * (2.0 * turn.y / n);
     }
-    (0..points.len())
-        .map(|i| mean + cosine * turn(i).x + sine * turn(i).y)
+    turns
+        .iter()
+        .map(|turn| mean + cosine * turn.x + sine * turn.y)
         .collect()
 }
 

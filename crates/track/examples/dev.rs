@@ -68,7 +68,17 @@ fn main() {
             let mut loadtime = 0.0;
             let m0 = mask(masks[0]);
             let i0 = score::iou(&score::filled(&[&used[..]], m0.dim()), &m0).unwrap();
-            for (f, m) in frames.iter().zip(&masks).skip(1) {
+            for (f, m) in frames.iter().zip(&masks).skip(1).filter({
+                let mut k = 0;
+                let stride: usize = std::env::var("STRIDE")
+                    .ok()
+                    .and_then(|v| v.parse().ok())
+                    .unwrap_or(1);
+                move |_| {
+                    k += 1;
+                    k % stride == 0
+                }
+            }) {
                 let t0 = std::time::Instant::now();
                 let pic = load(f);
                 let truth = mask(m);

@@ -327,7 +327,7 @@ impl Body {
             None => before,
         };
         if self.coasting == 0 {
-            self.motion.learn(&before, &self.curve);
+            self.motion.learn(&before, &self.curve, &quality);
         }
         self.innovation += 0.2 * (moved - self.innovation);
         self.shape.follow(&self.curve, &quality, &strays, off);

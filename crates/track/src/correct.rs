@@ -3,6 +3,7 @@
 use glam::DVec2;
 use search::path::{Costs, Steps};
 
+use crate::edges::strength;
 use crate::evidence::Look;
 use crate::palette::Feature;
 use crate::profile::{HALF, SAMPLES};
@@ -38,6 +39,32 @@ pub(crate) struct Band {
     pub half: usize,
 }
 
+/// How much the region, the profile and the edge speak.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Weights {
+    region: f64,
+    profile: f64,
+    edge: f64,
+    /// Whether the steepest slope is meant, not any.
+    sharp: bool,
+}
+
+/// To find where the curve has gone.
+pub(crate) const ALL: Weights = Weights {
+    region: REGION,
+    profile: PROFILE,
+    edge: EDGE,
+    sharp: false,
+};
+
+/// To place it, once it is found: the region would push it off the middle of a strong edge.
+pub(crate) const EDGES: Weights = Weights {
+    region: 0.0,
+    profile: 0.0,
+    edge: EDGE,
+    sharp: true,
+};
+
 /// An offset of each node, and how firmly it is known: the curvature of its cost.
 #[derive(Debug, Clone)]
 pub(crate) struct Offsets {
@@ -46,7 +73,12 @@ pub(crate) struct Offsets {
 }
 
 /// The best offsets; None where there is no path.
-pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option<Offsets> {
+pub(crate) fn offsets(
+    look: Look<'_>,
+    strips: &Strips<'_>,
+    band: Band,
+    weights: Weights,
+) -> Option<Offsets> {
     let n = strips.curve.len();
     let half = band.half.cast_signed();
     let states = 2 * band.half + 1;
@@ -78,18 +110,29 @@ pub(crate) fn offsets(look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option
                 sums[(half + sign * k).unsigned_abs()] = sum;
             }
         }
+        if let Some((edges, steep)) = look.edges {
+            let slopes: Vec<f32> = (-half..=half)
+                .map(|d| edges.slope(look.window, strips, i, d as f64 + edges.offsets[i]))
+                .collect();
+            let steepest = slopes.iter().copied().fold(0.0, f32::max);
+            for (cost, slope) in row.iter_mut().zip(&slopes) {
+                let edge = if weights.sharp && steepest > 0.0 {
+                    strength(steepest, steep) * f64::from((slope / steepest).max(0.0))
+                } else {
+                    strength(*slope, steep)
+                };
+                *cost -= weights.edge * edge;
+            }
+        }
         for (k, cost) in row.iter_mut().enumerate() {
             let d = k as f64 - band.half as f64;
-            *cost = -REGION * sums[k] + tail(d / band.tether);
+            *cost += -weights.region * sums[k] + tail(d / band.tether);
             if let Some(profiles) = look.profiles {
                 let samples: Option<Vec<Feature>> = line[k..k + SAMPLES].iter().copied().collect();
                 let misfit = samples.map_or(WORST, |samples| {
                     (0.5 * profiles.misfit(i, &samples)).min(WORST)
                 });
-                *cost += PROFILE * misfit;
-            }
-            if let Some((edges, half)) = look.edges {
-                *cost -= EDGE * edges.at(look.window, strips, i, d + edges.offsets[i], half);
+                *cost += weights.profile * misfit;
             }
             let [inner, outer] = strips.room[i];
             if -d > inner || d > 2.0 * outer {
@@ -199,11 +242,16 @@ pub(crate) fn moved(strips: &Strips<'_>, found: &Offsets, pass: Pass) -> Vec<DVe
     }
 }
 
-/// A curve without crossings, as many nodes at equal distances; the first node where it was, or the nearest to it.
-pub(crate) fn simple(curve: &[DVec2], count: usize) -> Option<(Vec<DVec2>, Option<Vec<f64>>)> {
+/// A curve without crossings, as many nodes at equal distances; the first at a place between nodes, or where there
+/// were crossings the nearest to the first node.
+pub(crate) fn simple(
+    curve: &[DVec2],
+    count: usize,
+    first: f64,
+) -> Option<(Vec<DVec2>, Option<Vec<f64>>)> {
     let crossed = outline::crossings(curve, true).map_or(true, |found| !found.is_empty());
     if !crossed {
-        let (points, places) = ring::evenly(curve, count);
+        let (points, places) = ring::evenly_from(curve, count, first);
         return Some((points, Some(places)));
     }
     let resolved = outline::resolve(curve, 1.0).ok()?;

@@ -100,7 +100,7 @@ impl Edges {
         for i in 0..n {
             let near = NEAR.cast_signed();
             let values: Vec<f64> = (-near..=near)
-                .map(|d| edges.at(window, strips, i, d as f64, half))
+                .map(|d| f64::from(edges.slope(window, strips, i, d as f64)))
                 .collect();
             let best = (0..values.len())
                 .max_by(|&a, &b| values[a].total_cmp(&values[b]))
@@ -113,8 +113,9 @@ impl Edges {
                 } else {
                     0.0
                 };
-                sums[i] = b * b * (best as f64 - NEAR as f64 + share);
-                weights[i] = b * b;
+                let firm = strength(b as f32, half).powi(2);
+                sums[i] = firm * (best as f64 - NEAR as f64 + share);
+                weights[i] = firm;
             }
         }
         let (sums, weights) = (ring::along(&sums, CALM), ring::along(&weights, CALM));
@@ -135,6 +136,17 @@ impl Edges {
         offset: f64,
         half: f32,
     ) -> f64 {
+        strength(self.slope(window, strips, node, offset), half)
+    }
+
+    /// The slope of the color of its edge so far out from a node, above 0 from inside to outside.
+    pub(crate) fn slope(
+        &self,
+        window: &Window,
+        strips: &Strips<'_>,
+        node: usize,
+        offset: f64,
+    ) -> f32 {
         let (p, normal) = (strips.curve[node], strips.normals[node]);
         let place = |d: f64| window.feature(p + d * normal).map(|f| color(&f));
         let (Some(inner), Some(outer)) = (place(offset - 1.0), place(offset + 1.0)) else {
@@ -145,7 +157,7 @@ impl Edges {
             inner[1] - outer[1],
             inner[2] - outer[2],
         ];
-        strength(0.5 * dot(&across, &self.directions[node]), half)
+        0.5 * dot(&across, &self.directions[node])
     }
 
     /// Directions follow those at a later curve.
@@ -173,24 +185,20 @@ fn directions(window: &Window, strips: &Strips<'_>) -> Vec<Color> {
         }
         (count > 0.0).then(|| sum.map(|v: f32| v / count))
     };
-    let own: Vec<glam::DVec3> = (0..n)
-        .map(|i| {
-            match (
-                mean(i, -1.0, strips.room[i][0]),
-                mean(i, 1.0, strips.room[i][1]),
-            ) {
-                (Some(a), Some(b)) => glam::DVec3::new(
-                    f64::from(a[0] - b[0]),
-                    f64::from(a[1] - b[1]),
-                    f64::from(a[2] - b[2]),
-                ),
-                _ => glam::DVec3::ZERO,
-            }
-        })
-        .collect();
-    let smooth = search::along::smoothed(&own, WIDE, true);
-    smooth
-        .iter()
-        .map(|v| unit([v.x as f32, v.y as f32, v.z as f32]))
+    let difference = |i: usize| match (
+        mean(i, -1.0, strips.room[i][0]),
+        mean(i, 1.0, strips.room[i][1]),
+    ) {
+        (Some(a), Some(b)) => std::array::from_fn(|k| a[k] - b[k]),
+        _ => [0.0; 3],
+    };
+    let own: Vec<Color> = (0..n).map(difference).collect();
+    let channel = |k: usize| -> Vec<f64> {
+        let values: Vec<f64> = own.iter().map(|color| f64::from(color[k])).collect();
+        ring::along(&values, WIDE)
+    };
+    let smooth = [channel(0), channel(1), channel(2)];
+    (0..n)
+        .map(|i| unit(std::array::from_fn(|k| smooth[k][i] as f32)))
         .collect()
 }

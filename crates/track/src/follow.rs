@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::body::{Body, Frame, Seen, Step};
-use crate::correct::{Band, Offsets, Pass, moved, offsets, simple};
+use crate::correct::{ALL, Band, EDGES, Offsets, Pass, moved, offsets, simple};
 use crate::edges::half;
 use crate::evidence::{Evidence, Look};
 use crate::predict::{Flowed, Prediction, flowed};
@@ -27,12 +27,12 @@ const MOST_UNUSUAL: f64 = 3.0;
 
 /// Evidence against the reference below which an object is not seen, unless this share of its nodes is.
 const UNSEEN: f64 = 0.35;
-const NODES_SEEN: f64 = 0.35;
+const NODES_SEEN: f64 = 0.5;
 const SIZES: [f64; 2] = [0.4, 2.5];
 
 /// An object is looked for elsewhere below this evidence, within so many radii, and is found from that evidence on.
 const LOOK: f64 = 0.5;
-const REACH: f64 = 2.5;
+const REACH: f64 = 4.0;
 const FOUND: f64 = 0.5;
 
 /// The last tether and half width of the band of correction.
@@ -316,12 +316,17 @@ impl Body {
             return seen;
         };
         let next = moved(&strips, &found, Pass::Full);
+        let next = fine(look, &next, radius);
         seen.moved = found.offsets.iter().map(|d| d.abs()).sum::<f64>() / n as f64;
         let after = Evidence::of(look, &Strips::of(&next, radius));
         let mut quality = self.quality_of(&after);
         let kept = self.shape.kept(&next, &mut quality, &self.quality);
         (seen.strays, seen.off) = (kept.strays, kept.off);
-        if let Some((next, places)) = simple(&kept.curve, n) {
+        if let Some((next, places)) = simple(
+            &kept.curve,
+            n,
+            self.shape.slid(&kept.curve, &quality).unwrap_or(0.0),
+        ) {
             seen.evidence = Evidence::of(look, &Strips::of(&next, radius));
             (seen.curve, seen.places) = (next, places);
         }
@@ -342,7 +347,7 @@ impl Body {
 
     /// Offsets, those of nodes that were not seen with little weight.
     fn offsets(&self, look: Look<'_>, strips: &Strips<'_>, band: Band) -> Option<Offsets> {
-        let mut found = offsets(look, strips, band)?;
+        let mut found = offsets(look, strips, band, ALL)?;
         found
             .held
             .iter_mut()
@@ -350,4 +355,20 @@ impl Body {
             .for_each(|(held, q)| *held *= LOOSE + q);
         Some(found)
     }
+}
+
+/// The band in which a curve that was found is placed on its edge.
+const FINE: Band = Band {
+    tether: 1.5,
+    half: 2,
+};
+
+/// A curve placed on its edge, where it has one.
+fn fine(look: Look<'_>, curve: &[DVec2], radius: f64) -> Vec<DVec2> {
+    let strips = Strips::of(curve, radius);
+    let found = offsets(look, &strips, FINE, EDGES);
+    found.map_or_else(
+        || curve.to_vec(),
+        |found| moved(&strips, &found, Pass::Full),
+    )
 }

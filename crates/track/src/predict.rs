@@ -19,7 +19,7 @@ const NODES: usize = 80;
 
 /// Share of the motion of before, what is left of the way and of the turn, and of waves, in a frame.
 const OLD: f64 = 0.3;
-const AIR: f64 = 0.95;
+const AIR: f64 = 0.98;
 const TURN: f64 = 0.8;
 const WAVE: f64 = 0.5;
 
@@ -66,11 +66,14 @@ impl Motion {
     }
 
     /// It follows the way from one curve to the next, node by node.
-    pub(crate) fn learn(&mut self, before: &[DVec2], now: &[DVec2]) {
-        let even = vec![1.0; now.len()];
-        let motion = ring::laid(before, now, &even).about(ring::middle(before));
-        self.shift = AIR * (OLD * self.shift + (1.0 - OLD) * motion.shift);
-        let turn = OLD * self.turn + (1.0 - OLD) * motion.turn;
+    pub(crate) fn learn(&mut self, before: &[DVec2], now: &[DVec2], quality: &[f64]) {
+        let weights: Vec<f64> = quality.iter().map(|q| q + LEAST_WEIGHT).collect();
+        let motion = ring::laid(before, now, &weights).about(ring::middle(before));
+        // what is left to see of an object that is mostly hidden does not tell how it moves
+        let seen = quality.iter().sum::<f64>() / quality.len() as f64;
+        let new = (1.0 - OLD) * seen * seen;
+        self.shift += new * (motion.shift - self.shift);
+        let turn = self.turn + new * (motion.turn - self.turn);
         self.turn = DVec2::X.lerp(turn, TURN);
         let waves: Vec<DVec2> = before
             .iter()
@@ -84,7 +87,7 @@ impl Motion {
 
     /// It goes on without being seen: its size stays, its waves die away.
     pub(crate) fn coast(&mut self, fade: f64) {
-        self.shift *= fade;
+        self.shift *= AIR * fade;
         self.turn = DVec2::X.lerp(self.turn.normalize_or(DVec2::X), fade);
         self.waves.iter_mut().for_each(|wave| *wave *= WAVE);
     }
@@ -162,7 +165,7 @@ pub(crate) fn flowed(
         }
     }
     let sigma = (SMOOTH * n as f64).max(1.0);
-    let sums = search::along::smoothed(&left, sigma, true);
+    let sums = search::smooth::smoothed(&left, sigma, true);
     let weights = ring::along(&known, sigma);
     let bent = carried.iter().zip(sums.iter().zip(&weights));
     let bent = bent

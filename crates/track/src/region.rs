@@ -1,7 +1,7 @@
 //! Connected regions of cells: found, outlined, measured.
 
 use glam::DVec2;
-use search::along::smoothed;
+use search::smooth::smoothed;
 
 use crate::ring;
 

@@ -2,7 +2,8 @@
 
 use flow::Similarity;
 use glam::DVec2;
-use search::along::{Polygon, smoothed};
+use search::along::Polygon;
+use search::smooth::smoothed;
 
 /// σ of the smoothing of normals along the curve. Nodes.
 const CALM: f64 = 1.5;
@@ -132,6 +133,41 @@ pub(crate) fn calmed(curve: &[DVec2], stiff: f64) -> Vec<DVec2> {
         }
     }
     out
+}
+
+/// As [`evenly`], the first at a place between nodes.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "places between nodes"
+)]
+pub(crate) fn evenly_from(curve: &[DVec2], count: usize, first: f64) -> (Vec<DVec2>, Vec<f64>) {
+    let n = curve.len();
+    let turned = first.rem_euclid(n as f64);
+    let (whole, share) = (turned.floor() as usize % n, turned.fract());
+    let mut from: Vec<DVec2> = (0..n).map(|i| curve[(i + whole) % n]).collect();
+    if share > 1e-9 {
+        let start = bent(&from, 0, share);
+        from.rotate_left(1);
+        from.insert(0, start);
+    }
+    let (points, places) = evenly(&from, count);
+    let back = |at: f64| -> f64 {
+        let at = if share > 1e-9 {
+            // the first of these lies between two of the curve's nodes, and the last gap is what was cut off
+            if at < 1.0 {
+                share + at * (1.0 - share)
+            } else if at >= n as f64 {
+                n as f64 + (at - n as f64) * share
+            } else {
+                at
+            }
+        } else {
+            at
+        };
+        (at + whole as f64).rem_euclid(n as f64)
+    };
+    (points, places.into_iter().map(back).collect())
 }
 
 /// Nodes at equal distances, and where between the old nodes each lies. The first stays where it is.

@@ -37,6 +37,11 @@ const FEW: f64 = 0.08;
 /// So many nodes on either side of one that strays do too: they were drawn along.
 const ALONG: usize = 3;
 
+/// The most nodes a curve may slide along itself in a frame, and how much a turn must matter to be seen, in squared
+/// distances of nodes.
+const SLID: usize = 8;
+const CLEAR: f64 = 0.3;
+
 /// Weight of nodes that are not seen.
 const UNSEEN: f64 = 0.02;
 
@@ -69,9 +74,12 @@ impl Shape {
         }
     }
 
-    /// Whether a node has strayed in the last frame.
-    pub(crate) fn is_astray(&self, node: usize) -> bool {
-        self.astray[node] > 0
+    /// Whether too much is hidden for the rest to tell the size.
+    fn is_hidden(&self, quality: &[f64]) -> bool {
+        let hidden = (0..quality.len())
+            .filter(|&i| quality[i] <= 0.0 || self.astray[i] > 0)
+            .count();
+        hidden as f64 > FEW * quality.len() as f64
     }
 
     /// The shape laid on most of a curve; `quality` of nodes now, and `before`, 0 … 1.
@@ -82,10 +90,7 @@ impl Shape {
             .map(|(now, before)| now * before + UNSEEN)
             .collect();
         let mut motion = similarity(&self.nodes, curve, &weights).unwrap_or(Similarity::STILL);
-        let hidden = (0..curve.len())
-            .filter(|&i| quality[i] <= 0.0 || self.is_astray(i))
-            .count();
-        if hidden as f64 > FEW * curve.len() as f64 {
+        if self.is_hidden(quality) {
             motion.turn = motion.turn.normalize_or(DVec2::X);
         }
         self.nodes.iter().map(|p| motion.at(*p)).collect()
@@ -135,6 +140,40 @@ impl Shape {
         }
     }
 
+    /// By how many nodes a curve's nodes have slid along it, against the shape: the turn of its nodes by which it lies
+    /// best on the shape. None where no turn is clearly better than another, as on a circle.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a few nodes"
+    )]
+    pub(crate) fn slid(&self, curve: &[DVec2], quality: &[f64]) -> Option<f64> {
+        let n = curve.len();
+        let most = SLID.min(n / 8).cast_signed();
+        let weights: Vec<f64> = quality.iter().map(|q| q + UNSEEN).collect();
+        let misfit = |slid: isize| -> f64 {
+            let from = slid.rem_euclid(n.cast_signed()).unsigned_abs();
+            let turned: Vec<DVec2> = (0..n).map(|i| curve[(i + from) % n]).collect();
+            let motion = ring::laid(&self.nodes, &turned, &weights);
+            let squares =
+                (0..n).map(|i| weights[i] * motion.at(self.nodes[i]).distance_squared(turned[i]));
+            squares.sum::<f64>() / weights.iter().sum::<f64>()
+        };
+        let all: Vec<f64> = (-most..=most).map(misfit).collect();
+        let best = (0..all.len()).min_by(|&a, &b| all[a].total_cmp(&all[b]))?;
+        if best == 0 || best + 1 == all.len() {
+            return None;
+        }
+        let (a, b, c) = (all[best - 1], all[best], all[best + 1]);
+        let spacing = elastic::length(curve, true) / n as f64;
+        let bent = a - 2.0 * b + c;
+        // a turn by one node must matter by a good part of the way of the nodes
+        (bent > CLEAR * spacing * spacing).then(|| {
+            let share = (0.5 * (a - c) / bent).clamp(-0.5, 0.5);
+            best as f64 - most as f64 + share
+        })
+    }
+
     /// How far a curve is from the shape, in its usual deviations.
     pub(crate) fn distance(&self, curve: &[DVec2]) -> f64 {
         let motion = ring::laid(&self.nodes, curve, &vec![1.0; curve.len()]);
@@ -150,7 +189,10 @@ impl Shape {
     /// The shape follows a curve where it was seen.
     pub(crate) fn follow(&mut self, curve: &[DVec2], quality: &[f64], strays: &[bool], off: f64) {
         let weights: Vec<f64> = quality.iter().map(|q| q + UNSEEN).collect();
-        let laid = ring::laid(&self.nodes, curve, &weights);
+        let mut laid = ring::laid(&self.nodes, curve, &weights);
+        if self.is_hidden(quality) {
+            laid.turn = laid.turn.normalize_or(DVec2::X);
+        }
         for ((node, p), q) in self.nodes.iter_mut().zip(curve).zip(quality) {
             *node = laid.at(*node).lerp(*p, FOLLOW * q);
         }

@@ -76,6 +76,11 @@ impl Course {
         })
     }
 
+    /// A frame that was to be mended and was not there.
+    pub(super) fn not_mended(&self) -> Option<usize> {
+        self.mended.keys().next().copied()
+    }
+
     /// Whether nothing is followed any more, and nothing will be.
     pub(super) fn is_over(&self) -> bool {
         self.tally.alive == 0 && self.tally.frames > 0 && !self.births

@@ -11,7 +11,7 @@ use scene::SceneError;
 
 /// A side of the film is at most so long, and small frames are enlarged to about so much.
 const LONGEST: u32 = 1280;
-const SEEN: f64 = 480.0;
+const SEEN: f64 = 640.0;
 const MOST_ZOOM: f64 = 8.0;
 
 /// A dash and the space behind it where an object is not seen. Pixels of the film.

@@ -25,8 +25,8 @@ pub(crate) struct Flags {
     #[arg(required = true, value_name = "FRAME")]
     pub frames: Vec<PathBuf>,
     /// Where the objects are in the first frame: `circle:X,Y,RADIUS`, `box:LEFT,TOP,WIDTH,HEIGHT`,
-    /// `ellipse:X,Y,RX,RY[,DEGREES]`, `polygon:X,Y,X,Y,…` or `click:X,Y` in pixels, the first pixel's center at 0,0; or a
-    /// file of one or several outlines or points: CSV, GeoJSON, COCO, `ImageJ`, SVG, labelme, CVAT, a mask or labels.
+    /// `ellipse:X,Y,RX,RY[,DEGREES]`, `polygon:X,Y,X,Y,…` or `click:X,Y` in pixels, the first pixel's center at 0,0; or
+    /// a file of one or several outlines or points: CSV, GeoJSON, COCO, `ImageJ`, SVG, labelme, CVAT, a mask or labels.
     /// `{stem}` in its name stands for the name of the first file without its ending.
     #[arg(long, short, value_name = "START")]
     pub from: Start,

@@ -1,5 +1,6 @@
 //! `snake track`: outlines followed through the frames of a sequence.
 
+mod along;
 mod course;
 mod film;
 mod flags;
@@ -129,6 +130,11 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
     notes(&mut frames, words);
     for note in sinks.end()? {
         words.say(&format!("note: {note}"));
+    }
+    if let (false, Some(frame)) = (stop.asked(), course.not_mended()) {
+        words.say(&format!(
+            "note: --mend: frame {frame} was not followed, and nothing is mended there"
+        ));
     }
     let stopped = stop.asked();
     if stopped {

@@ -54,6 +54,8 @@ pub(super) struct Sinks<'a> {
     film: Option<FilmSeen>,
     measures: String,
     events: String,
+    /// Whether anything has room for what is measured.
+    measured: bool,
     values: Option<(u32, Values)>,
     ways: Option<Ways>,
     limits: Option<(f64, f64)>,
@@ -103,6 +105,8 @@ impl<'a> Sinks<'a> {
             film,
             measures: kept(&flags.measure, MEASURES)?,
             events: kept(&flags.events, EVENTS)?,
+            measured: flags.measure.is_some()
+                || matches!(plan.format, TrackFormat::GeoJson | TrackFormat::ImageJ),
             values: None,
             ways: None,
             limits: picture.shown_limits(),
@@ -176,7 +180,9 @@ impl<'a> Sinks<'a> {
     ) -> Result<(), SceneError> {
         let mut list: Vec<Tracked> = seen.iter().map(|one| one.tracked.clone()).collect();
         for (one, seen) in list.iter_mut().zip(seen) {
-            one.measures = measures(seen);
+            if self.measured {
+                one.measures = measures(seen);
+            }
         }
         self.writer.frame(frame, name, &list)?;
         if self.flags.measure.is_some() {
@@ -197,15 +203,6 @@ impl<'a> Sinks<'a> {
     /// Finish all; what people should know of it.
     pub(super) fn end(self) -> Result<Vec<String>, SceneError> {
         let notes = self.writer.end()?;
-        if let Some(film) = self.film {
-            film.end()?;
-        }
-        if let (Some((_, values)), Some(path)) = (self.values, &self.flags.kymograph) {
-            values.write(path)?;
-        }
-        if let (Some(ways), Some(path)) = (self.ways, &self.flags.trajectories) {
-            ways.write(path)?;
-        }
         for (path, text) in [
             (&self.flags.measure, &self.measures),
             (&self.flags.events, &self.events),
@@ -215,6 +212,15 @@ impl<'a> Sinks<'a> {
                 Some(path) => io::write_whole(path, text.as_bytes())?,
                 None => {}
             }
+        }
+        if let (Some((_, values)), Some(path)) = (self.values, &self.flags.kymograph) {
+            values.write(path)?;
+        }
+        if let (Some(ways), Some(path)) = (self.ways, &self.flags.trajectories) {
+            ways.write(path)?;
+        }
+        if let Some(film) = self.film {
+            film.end()?;
         }
         Ok(notes)
     }

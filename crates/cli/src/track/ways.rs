@@ -9,7 +9,7 @@ use io::tracks::{TrackState, Tracked};
 use io::{Picture, RgbImage, chart, paint};
 use scene::SceneError;
 
-use super::values::middle;
+use super::along::middle;
 use crate::fit::plain;
 
 /// A small picture is enlarged to about so many pixels, at most so much.

@@ -4,6 +4,7 @@
 
 pub(crate) mod discs;
 pub(crate) mod fits;
+pub(crate) mod moving;
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};

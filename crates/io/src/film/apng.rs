@@ -1,4 +1,4 @@
-//! A film as an animated PNG: each frame is a PNG of the part that has changed, whose data stand in chunks of the whole.
+//! A film as an animated PNG: each frame is a PNG of what has changed, whose data stand in chunks of the whole.
 //!
 //! (The chunks: <https://www.w3.org/TR/png-3/#apng-frame-based-animation>.)
 

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::names::{Gap, gaps, is_beside, is_listed, natural_order, sequence};
+use super::names::{Gap, gaps, is_beside, is_listed, sequence};
+use super::order::natural_order;
 use super::video::is_video;
 use crate::IoError;
 use crate::text::clip_to;

@@ -15,6 +15,7 @@
 
 mod listing;
 mod names;
+mod order;
 mod pages;
 mod video;
 
@@ -27,7 +28,8 @@ use crate::picture::PictureReading;
 use crate::{IoError, Picture};
 
 pub use listing::{ENDINGS, is_picture};
-pub use names::{Gap, natural_order};
+pub use names::Gap;
+pub use order::natural_order;
 
 /// A frame, or why there is none.
 #[derive(Debug, Clone)]

@@ -1,76 +1,10 @@
 //! Names of files with numbers in them: their order, and whether they are one sequence.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use super::order::{Piece, by_value, natural_order, pieces, stem};
 use crate::text::clip_to;
-
-/// The order in which people count: runs of digits by the number that they are, all else letter by letter.
-///
-/// ```
-/// let mut names = ["f10.png", "f2.png", "f1.png"];
-/// names.sort_by(|a, b| io::frames::natural_order(a, b));
-/// assert_eq!(names, ["f1.png", "f2.png", "f10.png"]);
-/// ```
-#[must_use]
-pub fn natural_order(a: &str, b: &str) -> Ordering {
-    let (pieces, others) = (pieces(a), pieces(b));
-    for (own, other) in pieces.iter().zip(&others) {
-        let order = match (own, other) {
-            (Piece::Digits(own), Piece::Digits(other)) => by_value(own, other),
-            (own, other) => own.text().cmp(other.text()),
-        };
-        if order != Ordering::Equal {
-            return order;
-        }
-    }
-    // of equal numbers, the one with fewer zeros before it
-    let fewer = pieces.len().cmp(&others.len());
-    fewer.then(a.len().cmp(&b.len())).then_with(|| a.cmp(b))
-}
-
-/// A part of a name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Piece<'a> {
-    Digits(&'a str),
-    Letters(&'a str),
-}
-
-impl<'a> Piece<'a> {
-    const fn text(self) -> &'a str {
-        match self {
-            Self::Digits(text) | Self::Letters(text) => text,
-        }
-    }
-}
-
-fn pieces(name: &str) -> Vec<Piece<'_>> {
-    let mut list = Vec::new();
-    let mut rest = name;
-    while let Some(first) = rest.chars().next() {
-        let digit = first.is_ascii_digit();
-        let end = rest.find(|c: char| c.is_ascii_digit() != digit);
-        let (piece, after) = rest.split_at(end.unwrap_or(rest.len()));
-        list.push(if digit {
-            Piece::Digits(piece)
-        } else {
-            Piece::Letters(piece)
-        });
-        rest = after;
-    }
-    list
-}
-
-/// Numbers of any length, compared.
-fn by_value(a: &str, b: &str) -> Ordering {
-    let (a, b) = (a.trim_start_matches('0'), b.trim_start_matches('0'));
-    a.len().cmp(&b.len()).then_with(|| a.cmp(b))
-}
-
-/// A name without its ending.
-fn stem(name: &str) -> &str {
-    name.rsplit_once('.').map_or(name, |(stem, _)| stem)
-}
 
 /// What names have in common that are of one sequence: all but the digits.
 fn shape(name: &str) -> String {
@@ -162,6 +96,7 @@ pub(super) fn sequence(names: &[&str]) -> Result<Sequence, String> {
     match several.first() {
         Some(own) => {
             found.order = (*own).clone();
+            let own: BTreeSet<usize> = own.iter().copied().collect();
             found.left_out = (0..names.len()).filter(|at| !own.contains(at)).collect();
         }
         None => found.order = (0..names.len()).collect(),
@@ -280,12 +215,9 @@ fn nested(names: &[&str]) -> Option<(Vec<usize>, Vec<usize>)> {
         .filter(|(_, own, _)| own.len() > 1)
         .collect();
     let pair = several.windows(2).find(|pair| {
-        let shared = |number: &&&str| {
-            pair[1]
-                .2
-                .iter()
-                .any(|other| by_value(number, other) == Ordering::Equal)
-        };
+        let plain = |number: &str| number.trim_start_matches('0').to_owned();
+        let others: BTreeSet<String> = pair[1].2.iter().map(|number| plain(number)).collect();
+        let shared = |number: &&&str| others.contains(&plain(number));
         2 * pair[0].2.iter().filter(shared).count() >= pair[0].2.len().min(pair[1].2.len())
     })?;
     Some((pair[0].1.clone(), pair[1].1.clone()))
@@ -469,6 +401,22 @@ mod tests {
         for name in ["masked_ball1.png", "t000.tif", "unmask.png", "segment3.png"] {
             assert!(!is_beside(name), "{name}");
         }
+    }
+
+    #[test]
+    fn a_hundred_thousand_names_are_told_apart_at_once() {
+        let mut names: Vec<String> = (0..100_000).map(|k| format!("run3_t{k}.png")).collect();
+        names.push("background.png".to_owned());
+        let list: Vec<&str> = names.iter().map(String::as_str).collect();
+        let found = sequence(&list).unwrap();
+        assert_eq!(
+            (found.order.len(), found.left_out),
+            (100_000, vec![100_000])
+        );
+        let two: Vec<String> = (0..100_000)
+            .map(|k| format!("s{}_t{}.png", k % 2, k / 2))
+            .collect();
+        assert!(sequence(&two.iter().map(String::as_str).collect::<Vec<_>>()).is_err());
     }
 
     #[test]

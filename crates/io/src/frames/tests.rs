@@ -287,3 +287,53 @@ fn a_video_is_read_by_its_program_or_refused_for_want_of_it() {
     };
     assert!(error.contains(wanted), "{error}");
 }
+
+#[test]
+fn pages_that_are_channels_or_have_no_heads_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("stack.tif");
+    let write = |said: &str, count: u8| {
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        let mut encoder = TiffEncoder::new(&mut bytes).unwrap();
+        for page in 0..count {
+            let mut image = encoder.new_image::<colortype::Gray8>(2, 1).unwrap();
+            if page == 0 {
+                image
+                    .encoder()
+                    .write_tag(tiff::tags::Tag::ImageDescription, said)
+                    .unwrap();
+            }
+            image.write_data(&[page, page]).unwrap();
+        }
+        std::fs::write(&path, bytes.get_ref()).unwrap();
+    };
+    let of = |channel: Option<&str>| {
+        let reading = PictureReading {
+            channel: channel.map(str::to_owned),
+            ..PictureReading::default()
+        };
+        Frames::open(std::slice::from_ref(&path), &reading).map_err(|error| error.to_string())
+    };
+    write("ImageJ=1.53\nimages=6\nchannels=2\nframes=3\n", 6);
+    let error = of(None).unwrap_err();
+    assert!(
+        error.contains("holds pages of 2 channels, 1, 2; the name or the number of one is needed"),
+        "{error}"
+    );
+    assert_eq!(levels(of(Some("1")).unwrap()), [0.0, 2.0, 4.0]);
+    assert_eq!(levels(of(Some("2")).unwrap()), [1.0, 3.0, 5.0]);
+    write("ImageJ=1.53\nimages=6\nslices=2\nframes=3\n", 6);
+    assert!(
+        of(None)
+            .unwrap_err()
+            .contains("holds 2 slices at each of 3 moments")
+    );
+    write("ImageJ=1.53\nimages=6\nslices=6\n", 6);
+    assert_eq!(of(None).unwrap().total(), Some(6));
+    write("ImageJ=1.53\nimages=900\nframes=900\n", 1);
+    assert!(
+        of(None)
+            .unwrap_err()
+            .contains("holds 900 pages behind one head")
+    );
+}

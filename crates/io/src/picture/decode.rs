@@ -73,7 +73,7 @@ fn stream(mut input: impl Read, rule: &PictureReading) -> Result<Picture, String
 
 /// Kinds of pictures that are read.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Known {
+pub(super) enum Known {
     Png,
     Jpeg,
     Tiff,
@@ -122,7 +122,7 @@ pub(super) fn decode(bytes: &[u8], most: u64, rule: &PictureReading) -> Result<P
 }
 
 /// A picture of a format that is read from its beginning to its end.
-fn in_order(
+pub(super) fn in_order(
     known: Known,
     input: &mut dyn BufRead,
     length: Option<u64>,
@@ -211,7 +211,7 @@ fn of_channel(mut picture: Picture, rule: &PictureReading) -> Result<Picture, St
 }
 
 /// A picture from a TIFF file, which is read in any order.
-fn tiff<R: BufRead + Seek>(
+pub(super) fn tiff<R: BufRead + Seek>(
     reader: &mut R,
     length: u64,
     most: u64,
@@ -249,33 +249,6 @@ fn tiff<R: BufRead + Seek>(
     picture.pixel_size = head.pixel_size.map(|size| size.turned(turned));
     Ok(picture)
 }
-
-/// A picture from a TIFF of so many bytes.
-pub(crate) fn decode_tiff<R: BufRead + Seek>(
-    reader: &mut R,
-    length: u64,
-    rule: &PictureReading,
-) -> Result<Picture, String> {
-    tiff(reader, length, MOST_PIXELS, rule)
-}
-
-/// The next of the pictures that stand one behind the other in a stream of PGM or PPM; None where it has ended.
-pub(crate) fn decode_next(
-    input: &mut dyn BufRead,
-    rule: &PictureReading,
-) -> Result<Option<Picture>, String> {
-    let there = |e: std::io::Error| format!("cannot be read: {e}");
-    let begin = input.fill_buf().map_err(there)?;
-    match begin {
-        [] => return Ok(None),
-        [b'P', ..] => {}
-        _ => return Err(format!("the stream has no picture here; {STREAMED}")),
-    }
-    in_order(Known::Pnm, input, None, MOST_PIXELS, rule).map(Some)
-}
-
-/// What to say of another stream.
-const STREAMED: &str = "PGM or PPM pictures one behind the other are needed";
 
 /// What to say of a picture that is stored otherwise than it is looked at.
 fn note(turned: Orientation) -> Option<String> {

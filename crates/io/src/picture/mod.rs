@@ -20,6 +20,7 @@ mod pixels;
 mod png;
 mod pnm;
 mod recolor;
+mod sequence;
 mod source;
 mod tiff_bands;
 mod tiff_file;
@@ -39,9 +40,10 @@ use pixels::Pixels;
 use crate::IoError;
 use crate::limits::MOST_PIXELS;
 
-pub(crate) use decode::{broken, decode_next, decode_tiff};
+pub(crate) use decode::broken;
 pub(crate) use numbers::{Numbers, numbers_of};
 pub use pixel_size::PixelSize;
+pub(crate) use sequence::{decode_next, decode_tiff};
 pub(crate) use tiff_pages::pages_of_channel;
 
 /// A picture: grey levels to compute with, and colours to look at.

@@ -57,12 +57,19 @@ pub(crate) type Own = Option<(usize, usize)>;
 ///
 /// # Errors
 ///
-/// Pages of several channels of which none is chosen, or of several slices at several moments.
+/// Pages without heads of their own; pages of several channels of which none is chosen, or of several slices at several moments.
 pub(crate) fn pages_of_channel<R: std::io::BufRead + std::io::Seek>(
     decoder: &mut Decoder<R>,
     channel: Option<&str>,
 ) -> Result<(Own, Option<PixelSize>), String> {
     let said = tiff_size::said(decoder);
+    if said.images > 1 && !decoder.more_images() {
+        return Err(format!(
+            "holds {} pages behind one head, as ImageJ writes what is larger than 4 GiB; needed: a file with a head for \
+             each page, or the frames as files",
+            said.images
+        ));
+    }
     let (slices, moments) = said.stack;
     if slices > 1 && moments > 1 {
         return Err(format!(

@@ -17,6 +17,8 @@ pub(super) struct Said {
     pub channels: Vec<String>,
     /// How many slices there are at each moment, and how many moments.
     pub stack: (usize, usize),
+    /// How many pages `ImageJ` says there are.
+    pub images: usize,
 }
 
 /// Channels that are believed.
@@ -67,6 +69,7 @@ pub(super) fn said<R: BufRead + Seek>(decoder: &mut Decoder<R>) -> Said {
                 .unwrap_or(1)
         };
         said.stack = (many("slices"), many("frames"));
+        said.images = many("images");
     }
     let mut each = |tag: Tag| 1.0 / ratio(decoder.find_tag(tag).ok().flatten());
     let (x, y) = (each(Tag::XResolution), each(Tag::YResolution));
@@ -119,5 +122,6 @@ fn ome(description: &str) -> Option<Said> {
             Vec::new()
         },
         stack,
+        images: 1,
     })
 }

@@ -7,7 +7,7 @@
 //! | --- | --- | --- |
 //! | [`Csv`](TrackFormat::Csv) | `frame,id,x,y` a point | nothing |
 //! | [`GeoJson`](TrackFormat::GeoJson) | a feature for each outline of each frame | all, as properties |
-//! | [`Coco`](TrackFormat::Coco) | a video of `YouTube-VIS`: runs of pixels, a list for each object | parent, confidence |
+//! | [`Coco`](TrackFormat::Coco) | a video of `YouTube-VIS`: runs of pixels, a list an object | parent, confidence |
 //! | [`Ctc`](TrackFormat::Ctc) | a folder of `mask000.tif` and `res_track.txt` | parent |
 //! | [`ImageJ`](TrackFormat::ImageJ) | a ZIP of ROIs, each at its position in the stack | all, as text |
 //! | [`Mot`](TrackFormat::Mot) | a box a line | confidence |
@@ -201,5 +201,7 @@ pub struct TrackContext {
     pub label: Option<String>,
 }
 
+#[cfg(test)]
+mod ctc_tests;
 #[cfg(test)]
 mod tests;
