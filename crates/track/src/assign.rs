@@ -20,6 +20,9 @@ const MERGED: f64 = 0.6;
 const TOGETHER: u32 = 8;
 const STILL: f64 = 0.25;
 
+/// An object is hidden by one that shares so much of the smaller one.
+const MET: f64 = 0.3;
+
 impl Tracker {
     /// Where two end on one object that were to be apart, the one with less evidence looks elsewhere.
     pub(crate) fn compete(
@@ -52,6 +55,26 @@ impl Tracker {
                 let step = body.follow(now, &predicted[weaker], &beside(&places, weaker));
                 ended[weaker] = body.outline();
                 followed[weaker] = (body, step);
+            }
+        }
+    }
+
+    /// Objects that are not seen any more note which one covers them.
+    pub(crate) fn meet(&mut self) {
+        let outlines = self.outlines();
+        for i in 0..self.objects.len() {
+            let object = &self.objects[i];
+            let hidden = object.step.state == State::Coasting;
+            let met = (hidden && object.unseen == 1).then(|| {
+                (0..outlines.len())
+                    .filter(|&j| j != i && contact::near(&outlines[i], &outlines[j]))
+                    .map(|j| (j, contact::shared(&outlines[i], &outlines[j])))
+                    .filter(|one| one.1 > MET)
+                    .max_by(|a, b| a.1.total_cmp(&b.1))
+                    .map(|one| self.objects[one.0].id)
+            });
+            if let Some(met) = met {
+                self.objects[i].met = met;
             }
         }
     }
@@ -98,7 +121,8 @@ impl Tracker {
             let (Some(at), Some(_)) = (place(id), place(other)) else {
                 continue;
             };
-            let object = self.objects.remove(at);
+            let mut object = self.objects.remove(at);
+            object.met = Some(other);
             if self.crowd.is_some() {
                 self.graves.push(object);
             }

@@ -7,7 +7,8 @@ use crate::body::lightness;
 use crate::palette::{Feature, Palette, SAMPLE};
 use crate::region::{filled, grown};
 use crate::ring;
-use crate::window::{Lightness, Window, cells, to_cells, to_pixels};
+use crate::view::View;
+use crate::window::{Lightness, Window, cells, to_cells};
 
 /// The radius of the middle object in cells is at most this: larger ones are seen in blocks.
 const RADIUS: f64 = 50.0;
@@ -31,22 +32,6 @@ const LEAST_OBJECTS: f64 = 0.6;
 /// Which features are lightness and color.
 const COLORS: [usize; 3] = [0, 2, 3];
 
-/// The ways to cells within two steps.
-const STEPS: [(isize, isize); 12] = [
-    (0, -2),
-    (-1, -1),
-    (0, -1),
-    (1, -1),
-    (-2, 0),
-    (-1, 0),
-    (1, 0),
-    (2, 0),
-    (-1, 1),
-    (0, 1),
-    (1, 1),
-    (0, 2),
-];
-
 /// The appearance of all objects against that of the ground.
 #[derive(Debug, Clone)]
 pub(crate) struct Crowd {
@@ -59,97 +44,6 @@ pub(crate) struct Crowd {
     means: [Feature; 2],
     /// The area of the middle object. Cells.
     pub area: f64,
-}
-
-/// A frame as the crowd sees it.
-#[derive(Debug, Clone)]
-pub(crate) struct View {
-    pub size: (usize, usize),
-    block: f64,
-    /// Which cells look like objects.
-    pub like: Vec<bool>,
-    /// How far each cell is from the mean of the ground, 0, towards that of objects, 1.
-    pub level: Vec<f32>,
-    /// The number of the object that covers a cell, from 1; 0 for none.
-    pub owner: Vec<usize>,
-}
-
-impl View {
-    pub(crate) fn to_cells(&self, curve: &[DVec2]) -> Vec<DVec2> {
-        curve.iter().map(|p| to_cells(*p, self.block)).collect()
-    }
-
-    pub(crate) fn to_pixels(&self, curve: &[DVec2]) -> Vec<DVec2> {
-        curve.iter().map(|p| to_pixels(*p, self.block)).collect()
-    }
-
-    /// Which share of a curve's cells in the frame looks like objects, and is not another's.
-    pub(crate) fn share(&self, own: usize, curve: &[DVec2]) -> f64 {
-        let (mut like, mut all) = (0.0, 0.0);
-        filled(self.size, &self.to_cells(curve), |at| {
-            all += 1.0;
-            if self.like[at] && (self.owner[at] == 0 || self.owner[at] == own) {
-                like += 1.0;
-            }
-        });
-        if all > 0.0 { like / all } else { 0.0 }
-    }
-
-    /// The highest level on a line, one cell at a time; or the lowest.
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped to the grid"
-    )]
-    pub(crate) fn extreme(&self, from: DVec2, to: DVec2, highest: bool) -> f32 {
-        let steps = from.distance(to).ceil().max(1.0);
-        let (width, height) = self.size;
-        let last = DVec2::new(width as f64 - 1.0, height as f64 - 1.0);
-        let mut k = 0.0;
-        let mut found: Option<f32> = None;
-        while k <= steps {
-            let p = from.lerp(to, k / steps).round().clamp(DVec2::ZERO, last);
-            let level = self.level[p.y as usize * width + p.x as usize];
-            found = Some(match found {
-                Some(found) if highest => found.max(level),
-                Some(found) => found.min(level),
-                None => level,
-            });
-            k += 1.0;
-        }
-        found.unwrap_or(0.0)
-    }
-
-    /// The middle level of a region.
-    pub(crate) fn middle_level(&self, cells: &[usize]) -> f32 {
-        let mut levels: Vec<f32> = cells.iter().map(|&at| self.level[at]).collect();
-        levels.sort_by(f32::total_cmp);
-        levels.get(levels.len() / 2).copied().unwrap_or(0.0)
-    }
-
-    /// Whether a cell lies within two steps of those of another object.
-    pub(crate) fn is_beside_other(&self, at: usize, own: usize) -> bool {
-        let (width, height) = self.size;
-        let (x, y) = ((at % width).cast_signed(), (at / width).cast_signed());
-        STEPS.iter().any(|(i, j)| {
-            let (x, y) = (x + i, y + j);
-            let inside = x >= 0 && y >= 0 && x < width.cast_signed() && y < height.cast_signed();
-            inside && {
-                let owner = self.owner[y.unsigned_abs() * width + x.unsigned_abs()];
-                owner != 0 && owner != own
-            }
-        })
-    }
-
-    /// An object covers these cells from now on, where none does.
-    pub(crate) fn cover(&mut self, own: usize, curve: &[DVec2]) {
-        let curve = self.to_cells(curve);
-        filled(self.size, &curve, |at| {
-            if self.owner[at] == 0 {
-                self.owner[at] = own;
-            }
-        });
-    }
 }
 
 impl Crowd {
@@ -350,4 +244,67 @@ fn shares(window: &Window, palette: &Palette, sides: &[Vec<usize>; 2]) -> [Vec<f
             })
             .collect()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by it")]
+
+    use super::*;
+
+    /// Two discs of radius 12 and different levels; a third one, nearly like the first, that nobody has outlined.
+    const DISCS: [(f64, f64, f64); 3] = [
+        (25.0, 30.0, 160.0),
+        (70.0, 30.0, 220.0),
+        (48.0, 65.0, 165.0),
+    ];
+    const RADIUS: f64 = 12.0;
+
+    fn within(p: DVec2) -> Option<usize> {
+        DISCS
+            .iter()
+            .position(|disc| p.distance(DVec2::new(disc.0, disc.1)) <= RADIUS)
+    }
+
+    #[test]
+    fn what_looks_like_objects_is_found_wherever_it_is() {
+        let image = fit::Image::grey(field::Grid::from_shape_fn((90, 100), |(y, x)| {
+            let p = DVec2::new(x as f64, y as f64);
+            let noise = 10.0 * (field::drawn::uniform(3, (100 * y + x) as u64) - 0.5);
+            noise + within(p).map_or(60.0, |disc| DISCS[disc].2)
+        }));
+        let outlines = [0, 1].map(|disc| {
+            let center = DVec2::new(DISCS[disc].0, DISCS[disc].1);
+            fit::Contour::circle(center, RADIUS).points
+        });
+        let outlines = outlines.each_ref().map(Vec::as_slice);
+        let mut crowd = Crowd::of(image.pixels(), &outlines).unwrap();
+        assert!((crowd.area / (std::f64::consts::PI * 144.0) - 1.0).abs() < 0.02);
+        let view = crowd
+            .view(image.pixels(), &outlines, &[true, true])
+            .unwrap();
+        let wrong = (0..9000).filter(|at| {
+            let p = DVec2::new((at % 100) as f64, (at / 100) as f64);
+            let edge = DISCS
+                .iter()
+                .any(|disc| (p.distance(DVec2::new(disc.0, disc.1)) - RADIUS).abs() < 1.5);
+            !edge && view.like[*at] != within(p).is_some()
+        });
+        assert_eq!(wrong.count(), 0);
+        assert_eq!(view.owner[30 * 100 + 25], 1);
+        assert_eq!(view.owner[30 * 100 + 70], 2);
+        assert_eq!(view.owner[65 * 100 + 48], 0);
+        assert!(view.share(outlines[1]) > 0.95);
+    }
+
+    #[test]
+    fn nothing_is_told_from_a_ground_that_looks_the_same() {
+        let image = fit::Image::grey(field::Grid::from_shape_fn((90, 100), |(y, x)| {
+            200.0 * field::drawn::uniform(3, (100 * y + x) as u64)
+        }));
+        let outline = fit::Contour::circle(DVec2::splat(40.0), RADIUS).points;
+        let outlines = [outline.as_slice()];
+        let mut crowd = Crowd::of(image.pixels(), &outlines).unwrap();
+        assert!(crowd.view(image.pixels(), &outlines, &[true]).is_none());
+    }
 }

@@ -52,6 +52,10 @@ pub(crate) struct Object {
     /// In which frame it came, and whether the border of the frame cuts it since.
     pub since: usize,
     pub cut: bool,
+    /// The object that covered it when it was seen last.
+    pub met: Option<u32>,
+    /// In which frame all of it looked like objects last.
+    pub whole: Option<usize>,
     /// Its outline in the frame before. Pixels.
     pub last: Vec<DVec2>,
 }
@@ -197,6 +201,7 @@ impl Tracker {
             );
             object.unseen = if is.is_seen() { 0 } else { object.unseen + 1 };
         }
+        self.meet();
         let now = Frame {
             before: None,
             pixels: frame.pixels(),
@@ -354,6 +359,8 @@ impl Object {
             gone: 0,
             since,
             cut: false,
+            met: None,
+            whole: None,
         }
     }
 

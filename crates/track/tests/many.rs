@@ -190,31 +190,39 @@ fn parts_in_contact_are_two_if_a_dark_line_is_between_them() {
 
 #[test]
 fn a_division_that_does_not_last_is_undone() {
-    // a dark line cuts the object in frame 5 alone
-    let frame = |t: usize| {
-        drawn(t, |p| {
-            let line = t == 5 && (p.x - 60.0).abs() < 3.0;
-            (((p - DVec2::new(60.0, 48.0)) / DVec2::new(30.0, 16.0)).length() <= 1.0 && !line)
-                .then_some(180.0)
-        })
+    // two discs of radius 14 part, are 4 pixels apart in frame 8 alone, and are one again
+    let half = |t: usize| {
+        if t <= 8 {
+            2.0 * t as f64
+        } else {
+            (32.0 - 2.0 * t as f64).max(8.0) - 2.0
+        }
     };
-    let start: Vec<DVec2> = circle(0.0, 0.0, 1.0)
-        .iter()
-        .map(|p| DVec2::new(60.0, 48.0) + *p * DVec2::new(30.0, 16.0))
-        .collect();
-    let all = followed(12, frame, std::slice::from_ref(&start), &options(true));
+    let level = |t: usize, p: DVec2| {
+        disc(p, 60.0 - half(t), 48.0, 14.0) || disc(p, 60.0 + half(t), 48.0, 14.0)
+    };
+    let frame = |t: usize| drawn(t, |p| level(t, p).then_some(180.0));
+    let all = followed(20, frame, &[circle(60.0, 48.0, 14.0)], &options(true));
     assert_eq!(
         happened(&all, |what| matches!(what, Happening::Divided(_))),
-        [(5, 1)]
+        [(8, 1)]
     );
     let mut undone = happened(&all, |what| *what == Happening::Merged(1));
     undone.sort_unstable();
-    assert_eq!(undone, [(6, 2), (6, 3)]);
-    for (t, tracked) in all.iter().enumerate().skip(6) {
-        assert_eq!(ids(tracked), [1], "{t}");
-        let fit = fits(tracked, 1, &start);
-        assert!(fit > 0.95, "{t}: {fit}");
+    assert_eq!(undone.iter().map(|one| one.1).collect::<Vec<_>>(), [2, 3]);
+    assert!(
+        undone.iter().all(|one| (9..=10).contains(&one.0)),
+        "{undone:?}"
+    );
+    for tracked in &all[10..] {
+        assert_eq!(ids(tracked), [1], "{}", tracked.frame);
     }
+    // what it encloses is what was drawn
+    let ring = &all[19].outlines[0].points;
+    let mask = score::filled(&[&ring[..]], SIZE);
+    let truth =
+        ndarray::Array2::from_shape_fn(SIZE, |(y, x)| level(19, DVec2::new(x as f64, y as f64)));
+    assert!(score::iou(&mask, &truth).unwrap() > 0.95);
 }
 
 #[test]
@@ -339,4 +347,31 @@ fn the_number_of_threads_changes_nothing() {
     assert!(one.iter().any(|tracked| tracked.outlines.len() == 2));
     assert_eq!(one, run(2));
     assert_eq!(one, run(5));
+}
+
+#[test]
+fn what_could_not_be_told_apart_is_two_again_when_it_parts() {
+    // two discs of radius 12 become one, stay so for ten frames and part again
+    let half = |t: usize| match t {
+        0..10 => 20.0 - 2.0 * t as f64,
+        10..20 => 0.0,
+        _ => (1.5 * (t as f64 - 20.0)).min(24.0),
+    };
+    let frame = |t: usize| {
+        drawn(t, |p| {
+            let both = disc(p, 60.0 - half(t), 48.0, 12.0) || disc(p, 60.0 + half(t), 48.0, 12.0);
+            both.then_some(180.0)
+        })
+    };
+    let starts = [circle(40.0, 48.0, 12.0), circle(80.0, 48.0, 12.0)];
+    let all = followed(40, frame, &starts, &options(true));
+    let last = &all[39];
+    assert_eq!(ids(last), [1, 2]);
+    let new = |what: &Happening| matches!(what, Happening::Divided(_) | Happening::Born);
+    assert!(happened(&all, new).is_empty());
+    for x in [36.0, 84.0] {
+        let truth = circle(x, 48.0, 12.0);
+        let best = fits(last, 1, &truth).max(fits(last, 2, &truth));
+        assert!(best > 0.95, "{x}: {best}");
+    }
 }
