@@ -3,12 +3,13 @@
 use crate::Experiment;
 use crate::experiments::{
     angle, apple, atlas, ball, balloon, corners, curvature, damping, damping_rules, decomposition,
-    disc, ends, energy, force_field, forces, maps, matrix, open_curves, orders, profiles,
-    rest_traps, signal, smoothing, soft, time_step, turned_picture, turning,
+    disc, drawn_frames, ends, energy, followed, force_field, forces, maps, matrix, open_curves,
+    orders, profiles, rest_traps, signal, smoothing, soft, time_step, turned_picture, turning,
 };
 
 /// Every experiment. A new one is added here and nowhere else.
 pub const EXPERIMENTS: &[&Experiment] = &[
+    &followed::FOLLOWED,
     &decomposition::DECOMPOSITION,
     &energy::ENERGY,
     &orders::ORDERS,
@@ -67,6 +68,7 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &curvature::CURVATURE,
     &turning::TURNING,
     &turned_picture::PICTURE,
+    &drawn_frames::FRAMES_DRAWN,
     &balloon::BALLOON,
     &open_curves::OPEN_CURVES,
     &apple::HAND,

@@ -78,6 +78,12 @@ fn what_makes_no_sense_is_refused_and_nothing_is_written() {
         &["track", "none", "-q", "--from", "circle:20,24,9"],
         &["none: cannot be read: there is no such file"],
     );
+    // a film that cannot be leaves no rest of a table
+    std::fs::create_dir(folder.path("o.gif.d")).unwrap();
+    refused(
+        &["-o", "a.csv", "--overlay", "o.gif.d/no/o.gif"],
+        &["o.gif.d/no/o.gif: cannot be written"],
+    );
     folder.write("in/g1.pgm", disc(1));
     folder.write("in/g2.pgm", disc(2));
     refused(

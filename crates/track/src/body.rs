@@ -18,8 +18,8 @@ use crate::window::{Lightness, Window, cells, to_cells, to_pixels};
 const RADIUS: f64 = 50.0;
 
 /// Distance of nodes and their number. Cells.
-const SPACING: f64 = 2.0;
-const NODES: [f64; 2] = [60.0, 320.0];
+pub(crate) const SPACING: f64 = 2.0;
+pub(crate) const NODES: [f64; 2] = [60.0, 320.0];
 
 /// What is remembered of the first frame; how fast tables, profiles and edges follow.
 const FIRST: f32 = 0.3;
@@ -85,6 +85,8 @@ pub(crate) struct Step {
     /// Evidence against the reference.
     pub confidence: f64,
     pub state: State,
+    /// Whether the number of nodes has changed.
+    pub remeshed: bool,
 }
 
 /// An object that is followed. Lengths are cells.
@@ -270,6 +272,20 @@ impl Body {
         ring::share_within(curve, DVec2::splat(-0.5), last)
     }
 
+    /// All that nodes have learnt, for other nodes at places between them.
+    pub(crate) fn respaced(&mut self, places: &[f64]) {
+        self.material = ring::turned(&self.material, places);
+        self.errors = ring::between(&self.errors, places);
+        self.first = self.first.respaced(places);
+        self.running = self.running.respaced(places);
+        self.profiles = self.profiles.respaced(places);
+        self.edges = self.edges.respaced(places);
+        self.node_reference = ring::between(&self.node_reference, places);
+        self.shape = self.shape.respaced(places);
+        self.motion.waves = ring::between(&self.motion.waves, places);
+        self.quality = ring::between(&self.quality, places);
+    }
+
     /// It was not seen: it goes on as it was going, or waits where it left the frame.
     pub(crate) fn coast(
         &mut self,
@@ -300,6 +316,7 @@ impl Body {
             prediction,
             confidence,
             state,
+            remeshed: false,
         }
     }
 
@@ -362,10 +379,12 @@ impl Body {
         self.errors = errors;
         self.quality = quality;
         (self.coasting, self.left) = (0, false);
+        let remeshed = self.remesh();
         Step {
             prediction,
             confidence,
             state,
+            remeshed,
         }
     }
 }

@@ -364,6 +364,7 @@ impl Step {
             prediction: Prediction::Still,
             confidence: 1.0,
             state: State::Seen,
+            remeshed: false,
         }
     }
 }

@@ -127,16 +127,19 @@ impl Edges {
         edges
     }
 
-    /// How much of its edge a node has so far out.
-    pub(crate) fn at(
-        &self,
-        window: &Window,
-        strips: &Strips<'_>,
-        node: usize,
-        offset: f64,
-        half: f32,
-    ) -> f64 {
-        strength(self.slope(window, strips, node, offset), half)
+    /// The same for other nodes, at places between these.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "places between nodes"
+    )]
+    pub(crate) fn respaced(&self, places: &[f64]) -> Self {
+        let n = self.directions.len();
+        let nearest = |place: &f64| self.directions[place.round() as usize % n];
+        Self {
+            directions: places.iter().map(nearest).collect(),
+            offsets: ring::between(&self.offsets, places),
+        }
     }
 
     /// The slope of the color of its edge so far out from a node, above 0 from inside to outside.

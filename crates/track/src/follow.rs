@@ -50,6 +50,14 @@ const LOST_LOW: f64 = 0.02;
 /// A node that is not held has this weight in the pose.
 const LOOSE: f64 = 0.05;
 
+/// Standard error of a node whose edge is as steep as three quarters of the window are not, the least, and σ of the
+/// smoothing along the curve in nodes.
+const ERROR: f64 = 0.5;
+/// … and what the smoothing of shapes leaves of a deformation.
+const LAG: f64 = 0.15;
+const LEAST_ERROR: f64 = 0.03;
+const ERRORS_ALONG: f64 = 2.0;
+
 /// Beyond the candidates a window shows so much more. Cells.
 const MARGIN: f64 = 24.0;
 
@@ -336,13 +344,28 @@ impl Body {
                 *quality = 0.0;
             }
         }
-        let unseen = self.shape.deviation * radius;
-        let error = |i: usize| {
-            (found.held[i].recip().sqrt()).min(tether) * seen.quality[i]
-                + (1.0 - seen.quality[i]) * unseen.max(1.0)
-        };
-        seen.errors = (0..n).map(error).collect();
+        seen.errors = self.errors_of(look, &seen, radius, tether);
         seen
+    }
+
+    /// Standard errors of nodes: by how much steeper their edge is than what else the window shows; where they were not
+    /// seen, by how far nodes of this object go.
+    fn errors_of(&self, look: Look<'_>, seen: &Seen, radius: f64, most: f64) -> Vec<f64> {
+        let strips = Strips::of(&seen.curve, radius);
+        let unseen = (self.shape.deviation * radius).max(1.0);
+
+        let own = |i: usize| {
+            let Some((edges, half)) = look.edges else {
+                return most;
+            };
+            let slope = f64::from(edges.slope(look.window, &strips, i, edges.offsets[i]));
+            let error = (ERROR * f64::from(half) / slope.max(1e-9))
+                .hypot(LAG * self.shape.deviation * radius);
+            let quality = seen.quality[i];
+            quality * error.clamp(LEAST_ERROR, most) + (1.0 - quality) * unseen
+        };
+        let own: Vec<f64> = (0..seen.curve.len()).map(own).collect();
+        ring::along(&own, ERRORS_ALONG)
     }
 
     /// Offsets, those of nodes that were not seen with little weight.

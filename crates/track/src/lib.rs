@@ -61,6 +61,7 @@ mod plane;
 mod predict;
 mod profile;
 mod region;
+mod remesh;
 mod result;
 mod ring;
 mod seek;

@@ -111,7 +111,6 @@ impl Motion {
 /// What the picture's flow says of a curve.
 #[derive(Debug, Clone)]
 pub(crate) struct Flowed {
-    pub rigid: Similarity,
     pub carried: Vec<DVec2>,
     pub bent: Vec<DVec2>,
     /// Share of the points that could be followed.
@@ -172,7 +171,6 @@ pub(crate) fn flowed(
         .map(|(p, (sum, weight))| *p + *sum / weight.max(0.02))
         .collect();
     Some(Flowed {
-        rigid,
         carried,
         bent,
         share,

@@ -52,6 +52,8 @@ pub enum Happening {
     Merged(u32),
     /// The frame could not be read.
     Skipped,
+    /// The number of its nodes has changed.
+    Remeshed,
     /// Its outline was set from outside.
     Mended,
 }

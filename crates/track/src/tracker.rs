@@ -188,12 +188,17 @@ impl Tracker {
             } else {
                 None
             };
-            events.extend(said.map(|(what, confidence)| Event {
-                frame: self.frame,
-                id: object.id,
-                what,
-                confidence,
-            }));
+            let remeshed = object.step.remeshed.then_some((Happening::Remeshed, 1.0));
+            events.extend(
+                said.into_iter()
+                    .chain(remeshed)
+                    .map(|(what, confidence)| Event {
+                        frame: self.frame,
+                        id: object.id,
+                        what,
+                        confidence,
+                    }),
+            );
             object.unseen = if is.is_seen() { 0 } else { object.unseen + 1 };
         }
         self.meet();

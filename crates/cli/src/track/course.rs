@@ -312,6 +312,7 @@ pub(super) const fn word(what: &Happening) -> &'static str {
         Happening::Merged(_) => "merged",
         Happening::Skipped => "skipped",
         Happening::Mended => "mended",
+        Happening::Remeshed => "remeshed",
         _ => "other",
     }
 }

@@ -80,6 +80,11 @@ impl<'a> Sinks<'a> {
             name,
             label: None,
         };
+        // what may be refused comes before what grows and stays
+        let film = match (plan.film, &flags.overlay) {
+            (Some(format), Some(path)) => Some(FilmSeen::begin(path, format, picture, flags.rate)?),
+            _ => None,
+        };
         let writer = if flags.resume && plan.format == TrackFormat::Csv {
             TrackWriter::resume(plan.out(), from)?
         } else {
@@ -90,10 +95,6 @@ impl<'a> Sinks<'a> {
                 "note: standard output is closed or /dev/null: the outlines are kept nowhere",
             );
         }
-        let film = match (plan.film, &flags.overlay) {
-            (Some(format), Some(path)) => Some(FilmSeen::begin(path, format, picture, flags.rate)?),
-            _ => None,
-        };
         let kept = |path: &Option<PathBuf>, heading: &str| match path {
             Some(path) if flags.resume && from > 0 => former(path, heading, from),
             _ => Ok(format!("{heading}\n")),

@@ -14,6 +14,7 @@
 //! alike, and a frame in color in a grey one is taken by its grey levels.
 
 mod listing;
+mod mixed;
 mod names;
 mod order;
 mod pages;
