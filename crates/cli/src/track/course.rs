@@ -99,18 +99,9 @@ impl Course {
         self.take(tracked, Some(picture), Some(&image), name, sinks, words)
     }
 
-    /// Take the first frame as one that is written and told already.
-    pub(super) fn again(&mut self) {
-        let ids: Vec<u32> = self
-            .tracker
-            .first()
-            .outlines
-            .iter()
-            .map(|outline| outline.id)
-            .collect();
-        let own = ids.into_iter().map(|id| self.numbers.of_object(id));
-        self.tally.objects = own.collect();
-        (self.tally.alive, self.tally.last) = (self.tally.objects.len(), self.from);
+    /// The least number of an object.
+    pub(super) fn first_number(&self) -> u32 {
+        self.numbers.first()
     }
 
     /// The next frame.

@@ -78,9 +78,9 @@ pub(crate) struct Flags {
     /// Say of each frame how each object was found, and what happened.
     #[arg(long)]
     pub explain: bool,
-    /// Go on with the table of --out, from the last frame that is in it: appearance is learnt anew there. Rows of
-    /// --measure and --events are kept.
-    #[arg(long, requires = "out", conflicts_with = "kymograph")]
+    /// Go on with the table of --out as if the run had not been ended: frames are followed again from the first, which
+    /// takes its time; what is there is compared, not written, and where it differs, the run is refused.
+    #[arg(long, requires = "out")]
     pub resume: bool,
     /// Refuse to write over a file that is there.
     #[arg(long)]

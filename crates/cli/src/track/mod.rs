@@ -17,7 +17,6 @@ use std::sync::Arc;
 use ::track::{Options, Tracker};
 use io::frames::{Frame, Frames, Numbered};
 use io::shapes::{Reading, Shape};
-use io::tracks::TableFrames;
 use io::{Picture, PictureReading};
 use scene::SceneError;
 use scene::fit::{Contour, Image};
@@ -50,18 +49,7 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
     plan.check(flags, &frames)?;
     notes(&mut frames, words);
     let stop = Stop::listen();
-    let from = if flags.resume {
-        TableFrames::last(plan.out())?
-    } else {
-        None
-    };
-    let (tracked_before, first) = match &from {
-        None => (0, next(&mut frames)?),
-        Some((frame, _)) => {
-            frames.pass(*frame);
-            (*frame, next(&mut frames)?)
-        }
-    };
+    let first = next(&mut frames)?;
     let Frame::Picture(picture) = first.frame else {
         let Frame::Broken(reason) = first.frame else {
             return Ok(code(false));
@@ -72,28 +60,11 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
         words.say(&format!("note: {note}"));
     }
     let picture: Arc<Picture> = Arc::from(*picture);
-    let (starts, numbers) = match &from {
-        None => starts(flags, &frames, &picture, words)?,
-        Some((_, outlines)) => {
-            words.say(&format!(
-                "goes on with frame {}, {}",
-                tracked_before, first.name
-            ));
-            let starts = outlines.iter().map(|one| Contour {
-                points: one.points.clone(),
-                closed: true,
-            });
-            (
-                starts.collect(),
-                Numbers::given(outlines.iter().map(|one| one.id)),
-            )
-        }
-    };
-    let options = options(flags, from.is_some());
+    let (starts, numbers) = starts(flags, &frames, &picture, words)?;
     let tracker = Tracker::new(
         &Image::of(Arc::<Picture>::clone(&picture)),
         &starts,
-        &options,
+        &options(flags),
     );
     let tracker = tracker.map_err(|error| key("--from", error))?;
     if let Some(id) = flags.object.filter(|id| !numbers.is_known(*id)) {
@@ -105,40 +76,52 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
             ),
         ));
     }
-    // the frame that is gone on with is written already
-    let there = from.as_ref().map_or(0, |(frame, _)| frame + 1);
-    let mut sinks = Sinks::begin(flags, &plan, &frames, &picture, there)?;
-    sinks.charts(numbers.first(), there);
-    if there > 0 {
-        sinks.replay(&inputs, &reading, there)?;
+    let mut course = Course::new(tracker, numbers, 0, flags)?;
+    let mut sinks = Sinks::begin(flags, &plan, &frames, &picture)?;
+    sinks.charts(course.first_number());
+    if sinks.is_behind() {
+        words.say("--resume: frames are followed again from the first; what is there is compared");
     }
-    let mut course = Course::new(tracker, numbers, tracked_before, flags)?;
-    if there == 0 {
-        course.first(&picture, &first.name, &mut sinks, words)?;
-    } else {
-        course.again();
-    }
-    let bar = said::bar(frames.total(), tracked_before, words);
-    while !stop.asked() && !course.is_over() {
-        let Some(frame) = frames.next() else { break };
-        bar.suspend(|| notes(&mut frames, words));
-        bar.suspend(|| course.next(frame, &mut sinks, words))?;
-        bar.inc(1);
-    }
+    let bar = said::bar(frames.total(), 0, words);
+    let followed = bar.suspend(|| course.first(&picture, &first.name, &mut sinks, words));
+    let followed = followed.and_then(|()| {
+        while !stop.asked() && !course.is_over() {
+            let Some(frame) = frames.next() else { break };
+            bar.suspend(|| notes(&mut frames, words));
+            let (behind, index) = (sinks.is_behind(), frame.index);
+            bar.suspend(|| course.next(frame, &mut sinks, words))?;
+            if behind && !sinks.is_behind() {
+                bar.suspend(|| words.say(&format!("goes on behind frame {index}")));
+            }
+            bar.inc(1);
+        }
+        Ok(())
+    });
     bar.finish_and_clear();
     let left = left(&mut frames, stop.asked());
     notes(&mut frames, words);
-    for note in sinks.end()? {
-        words.say(&format!("note: {note}"));
+    let stopped = stop.asked();
+    if sinks.is_behind() && (stopped || followed.is_err()) {
+        // what a former run has written is more than what there is by now
+        words.say("ended before all was followed again that is there: nothing is changed");
+        followed?;
+    } else {
+        let kept = sinks.end();
+        if followed.is_err() && kept.is_ok() {
+            words.say("ended by an error: what there was by then is written");
+        }
+        followed?;
+        for note in kept? {
+            words.say(&format!("note: {note}"));
+        }
+        if stopped {
+            words.say(&format!("{STOPPED}; --resume goes on with a table"));
+        }
     }
-    if let (false, Some(frame)) = (stop.asked(), course.not_mended()) {
+    if let (false, Some(frame)) = (stopped, course.not_mended()) {
         words.say(&format!(
             "note: --mend: frame {frame} was not followed, and nothing is mended there"
         ));
-    }
-    let stopped = stop.asked();
-    if stopped {
-        words.say(&format!("{STOPPED}; --resume goes on with a table"));
     }
     let good = said::summary(&course, left, stopped, words)?;
     Ok(code(good))
@@ -189,9 +172,8 @@ fn starts(
     Ok((shapes.iter().map(contour).collect(), numbers))
 }
 
-fn options(flags: &Flags, again: bool) -> Options {
+fn options(flags: &Flags) -> Options {
     let start = match flags.start {
-        _ if again => ::track::Start::Exact,
         Taken::Auto => ::track::Start::Chosen,
         Taken::Exact => ::track::Start::Exact,
         Taken::Rough => ::track::Start::Rough,
