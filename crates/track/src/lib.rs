@@ -36,8 +36,10 @@
 //! Units: pixels, x to the right and y down, the first pixel's center at (0, 0); times in frames. This crate reads no
 //! files.
 
+mod blend;
 mod body;
 mod born;
+mod by_hand;
 mod contact;
 mod correct;
 mod crowd;
@@ -62,6 +64,7 @@ mod tables;
 mod tracker;
 mod window;
 
+pub use blend::blended;
 pub use body::State;
 pub use error::TrackError;
 pub use options::{Options, Start};

@@ -113,13 +113,13 @@ impl<'a> Sinks<'a> {
     }
 
     /// Begin what is drawn in the end; the kymograph is of this object if no other is asked for.
-    pub(super) fn charts(&mut self, id: u32) {
+    pub(super) fn charts(&mut self, id: u32, first: usize) {
         let id = self.flags.object.unwrap_or(id);
         self.values = self
             .flags
             .kymograph
             .as_ref()
-            .map(|_| (id, Values::new(self.flags.of, id, 0)));
+            .map(|_| (id, Values::new(self.flags.of, id, first)));
         self.ways = self.flags.trajectories.as_ref().map(|_| Ways::default());
     }
 
@@ -167,6 +167,16 @@ impl<'a> Sinks<'a> {
             values.take(own.map(|one| &one.outline), picture);
         }
         self.draw(frame, picture, &list)
+    }
+
+    /// Whether pictures of frames are drawn or measured.
+    pub(super) const fn needs_pictures(&self) -> bool {
+        self.film.is_some() || self.values.is_some() || self.ways.is_some()
+    }
+
+    /// Leave all files as they were.
+    pub(super) fn discard(self) -> Result<(), SceneError> {
+        Ok(self.writer.discard()?)
     }
 
     /// Finish all, each as far as it can be; what people should know of it, or the first thing that went wrong.
