@@ -4,11 +4,11 @@ use fit::Image;
 use glam::DVec2;
 
 use crate::body::{Body, Frame, Step};
-use crate::crowd::View;
 use crate::divide::embodied;
 use crate::region::{Rectangle, Region, grown, regions};
 use crate::ring;
 use crate::tracker::{Object, Tracker};
+use crate::view::View;
 use crate::{Event, Happening, State};
 
 /// The least area of a new object, of that of the middle one; and where the border of the frame cuts it.
@@ -18,6 +18,9 @@ const CUT_AREA: f64 = 0.1;
 /// The least depth of a new object, of the radius of the middle one; and where the border cuts it.
 const DEPTH: f64 = 0.3;
 const CUT_DEPTH: f64 = 0.2;
+
+/// There are new objects only if they are this share of what looks like them and is known to be none.
+const MOSTLY: f64 = 0.5;
 
 /// New objects are not looked for within so many cells of those that are known.
 const BESIDE: usize = 2;
@@ -59,15 +62,22 @@ impl Tracker {
         let area = self.crowd.as_ref().map_or(0.0, |crowd| crowd.area);
         let radius = (area / std::f64::consts::PI).sqrt();
         let found = regions(view.size, all, |at| view.like[at] && !covered[at]);
-        for region in found {
+        let (new, rest): (Vec<Region>, Vec<Region>) = found.into_iter().partition(|region| {
             let [least, deep] = if region.at_border {
                 [CUT_AREA, CUT_DEPTH]
             } else {
                 [AREA, DEPTH]
             };
-            if (region.cells.len() as f64) < least * area || region.depth() < deep * radius {
-                continue;
-            }
+            region.cells.len() as f64 >= least * area && region.depth() >= deep * radius
+        });
+        let cells = |regions: &[Region]| -> f64 {
+            let cells: usize = regions.iter().map(|region| region.cells.len()).sum();
+            cells as f64
+        };
+        if cells(&new) < MOSTLY * (cells(&new) + cells(&rest)) {
+            return;
+        }
+        for region in new {
             let Some(body) = embodied(image, now, view, &region, &self.options.fit) else {
                 continue;
             };
@@ -154,13 +164,14 @@ impl Tracker {
             };
             let own = view.owner.iter().filter(|own| **own == index + 1).count() as f64;
             let all = region.cells.len() as f64;
-            if all > GROWN * own && all < MOST * own {
-                if let Some(body) = embodied(image, now, view, &region, &self.options.fit) {
-                    view.cover(index + 1, &body.outline());
-                    let object = &mut self.objects[index];
-                    object.body = body;
-                    object.step = Step::begun();
-                }
+            if all > GROWN * own
+                && all < MOST * own
+                && let Some(body) = embodied(image, now, view, &region, &self.options.fit)
+            {
+                view.cover(index + 1, &body.outline());
+                let object = &mut self.objects[index];
+                object.body = body;
+                object.step = Step::begun();
             }
             self.objects[index].cut &= region.at_border;
         }
@@ -173,7 +184,8 @@ impl Tracker {
         let rectangle = Rectangle::about(&curve, margin, view.size);
         let own = index + 1;
         let found = regions(view.size, rectangle, |at| {
-            view.like[at] && (view.owner[at] == 0 || view.owner[at] == own)
+            let owner = view.owner[at];
+            view.like[at] && (owner == own || (owner == 0 && !view.is_beside_other(at, own)))
         });
         let mine = |region: &Region| {
             let cells = region.cells.iter();
@@ -186,14 +198,13 @@ impl Tracker {
     /// Objects whose place is empty are lost.
     pub(crate) fn bury(&mut self, view: &View, events: &mut Vec<Event>) {
         let mut index = 0;
-        let mut place = 0;
         while index < self.objects.len() {
-            place += 1;
             let object = &mut self.objects[index];
             let doubted = !object.step.state.is_seen() || object.step.confidence < SURE;
-            let empty = doubted
+            let empty = object.id > 0
+                && doubted
                 && object.step.state != State::Left
-                && view.share(place, &object.body.outline()) < EMPTY;
+                && view.share(&object.body.outline()) < EMPTY;
             object.gone = if empty { object.gone + 1 } else { 0 };
             if object.gone < GONE {
                 index += 1;

@@ -4,10 +4,11 @@ use field::Pixels;
 use glam::DVec2;
 
 use crate::body::lightness;
-use crate::palette::{Palette, SAMPLE};
+use crate::palette::{Feature, Palette, SAMPLE};
 use crate::region::{filled, grown};
 use crate::ring;
-use crate::window::{Lightness, Window, cells, to_cells, to_pixels};
+use crate::view::View;
+use crate::window::{Lightness, Window, cells, to_cells};
 
 /// The radius of the middle object in cells is at most this: larger ones are seen in blocks.
 const RADIUS: f64 = 50.0;
@@ -24,6 +25,13 @@ const LEARN: f32 = 0.1;
 /// Added to the share of each class, over their number.
 const UNSEEN: f32 = 0.01;
 
+/// Objects can be told from the ground if less of the ground and more of the objects looks like objects.
+const MOST_GROUND: f64 = 0.4;
+const LEAST_OBJECTS: f64 = 0.6;
+
+/// Which features are lightness and color.
+const COLORS: [usize; 3] = [0, 2, 3];
+
 /// The appearance of all objects against that of the ground.
 #[derive(Debug, Clone)]
 pub(crate) struct Crowd {
@@ -32,51 +40,10 @@ pub(crate) struct Crowd {
     palette: Palette,
     /// Shares of classes on the ground and in objects.
     shares: [Vec<f32>; 2],
+    /// The mean features of the ground and of objects.
+    means: [Feature; 2],
     /// The area of the middle object. Cells.
     pub area: f64,
-}
-
-/// A frame as the crowd sees it.
-#[derive(Debug, Clone)]
-pub(crate) struct View {
-    pub size: (usize, usize),
-    block: f64,
-    /// Which cells look like objects.
-    pub like: Vec<bool>,
-    /// The number of the object that covers a cell, from 1; 0 for none.
-    pub owner: Vec<usize>,
-}
-
-impl View {
-    pub(crate) fn to_cells(&self, curve: &[DVec2]) -> Vec<DVec2> {
-        curve.iter().map(|p| to_cells(*p, self.block)).collect()
-    }
-
-    pub(crate) fn to_pixels(&self, curve: &[DVec2]) -> Vec<DVec2> {
-        curve.iter().map(|p| to_pixels(*p, self.block)).collect()
-    }
-
-    /// Which share of a curve's cells in the frame looks like objects, and is not another's.
-    pub(crate) fn share(&self, own: usize, curve: &[DVec2]) -> f64 {
-        let (mut like, mut all) = (0.0, 0.0);
-        filled(self.size, &self.to_cells(curve), |at| {
-            all += 1.0;
-            if self.like[at] && (self.owner[at] == 0 || self.owner[at] == own) {
-                like += 1.0;
-            }
-        });
-        if all > 0.0 { like / all } else { 0.0 }
-    }
-
-    /// Objects cover these cells from now on.
-    pub(crate) fn cover(&mut self, own: usize, curve: &[DVec2]) {
-        let curve = self.to_cells(curve);
-        filled(self.size, &curve, |at| {
-            if self.owner[at] == 0 {
-                self.owner[at] = own;
-            }
-        });
-    }
 }
 
 impl Crowd {
@@ -102,7 +69,9 @@ impl Crowd {
         }
         let palette = Palette::of(&sample, light.color);
         let shares = shares(&window, &palette, &sides);
+        let means = means(&window, &sides).map(Option::unwrap_or_default);
         Some(Self {
+            means,
             block,
             light,
             palette,
@@ -111,13 +80,14 @@ impl Crowd {
         })
     }
 
-    /// A frame in which objects have those outlines; of `taught` it learns what they look like.
+    /// A frame in which objects have those outlines; of `taught` it learns what they look like. None where objects cannot
+    /// be told from the ground.
     pub(crate) fn view(
         &mut self,
         pixels: &dyn Pixels,
         outlines: &[&[DVec2]],
         taught: &[bool],
-    ) -> View {
+    ) -> Option<View> {
         let size = cells(pixels.size(), self.block);
         let window = whole(pixels, self.block, self.light);
         let owner = owners(size, self.block, outlines);
@@ -126,6 +96,12 @@ impl Crowd {
         let now = shares(&window, &self.palette, &sides);
         for (side, (own, now)) in sides.iter().zip(self.shares.iter_mut().zip(&now)) {
             if !side.is_empty() {
+                let pairs = own.iter_mut().zip(now);
+                pairs.for_each(|(own, now)| *own += LEARN * (now - *own));
+            }
+        }
+        for (own, now) in self.means.iter_mut().zip(means(&window, &sides)) {
+            if let Some(now) = now {
                 let pairs = own.iter_mut().zip(now);
                 pairs.for_each(|(own, now)| *own += LEARN * (now - *own));
             }
@@ -145,13 +121,56 @@ impl Crowd {
             let class = window.class_at(at, &self.palette);
             class.is_some_and(|class| like[usize::from(class)])
         });
-        View {
+        let like: Vec<bool> = like.collect();
+        let share = |side: &[usize]| {
+            let found = side.iter().filter(|&&at| like[at]).count();
+            found as f64 / side.len().max(1) as f64
+        };
+        let [ground, objects] = [share(&sides[0]), share(&sides[1])];
+        let told = ground < MOST_GROUND && (objects > LEAST_OBJECTS || sides[1].is_empty());
+        told.then(|| View {
             size,
             block: self.block as f64,
-            like: like.collect(),
+            like,
+            level: self.levels(&window),
             owner,
-        }
+        })
     }
+}
+
+impl Crowd {
+    /// How far cells are from the ground towards objects: by lightness and color.
+    fn levels(&self, window: &Window) -> Vec<f32> {
+        let [ground, object] = self.means;
+        let way = COLORS.map(|k| object[k] - ground[k]);
+        let size: f32 = way.iter().map(|v| v * v).sum();
+        let one = |feature: &Feature| {
+            let along: f32 = COLORS
+                .iter()
+                .zip(way)
+                .map(|(&k, way)| way * (feature[k] - ground[k]))
+                .sum();
+            if size > 0.0 { along / size } else { 0.0 }
+        };
+        window.features.iter().map(one).collect()
+    }
+}
+
+/// The mean features of cells; None where there are none.
+fn means(window: &Window, sides: &[Vec<usize>; 2]) -> [Option<Feature>; 2] {
+    [0, 1].map(|side: usize| {
+        let mut sum = [0.0_f64; 4];
+        for &at in &sides[side] {
+            let feature = &window.features[at];
+            sum.iter_mut()
+                .zip(feature)
+                .for_each(|(sum, v)| *sum += f64::from(*v));
+        }
+        let count = sides[side].len() as f64;
+        #[allow(clippy::cast_possible_truncation, reason = "a mean of f32")]
+        let mean = sum.map(|sum| (sum / count) as f32);
+        (count > 0.0).then_some(mean)
+    })
 }
 
 /// The middle of some numbers.
@@ -225,4 +244,67 @@ fn shares(window: &Window, palette: &Palette, sides: &[Vec<usize>; 2]) -> [Vec<f
             })
             .collect()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by it")]
+
+    use super::*;
+
+    /// Two discs of radius 12 and different levels; a third one, nearly like the first, that nobody has outlined.
+    const DISCS: [(f64, f64, f64); 3] = [
+        (25.0, 30.0, 160.0),
+        (70.0, 30.0, 220.0),
+        (48.0, 65.0, 165.0),
+    ];
+    const RADIUS: f64 = 12.0;
+
+    fn within(p: DVec2) -> Option<usize> {
+        DISCS
+            .iter()
+            .position(|disc| p.distance(DVec2::new(disc.0, disc.1)) <= RADIUS)
+    }
+
+    #[test]
+    fn what_looks_like_objects_is_found_wherever_it_is() {
+        let image = fit::Image::grey(field::Grid::from_shape_fn((90, 100), |(y, x)| {
+            let p = DVec2::new(x as f64, y as f64);
+            let noise = 10.0 * (field::drawn::uniform(3, (100 * y + x) as u64) - 0.5);
+            noise + within(p).map_or(60.0, |disc| DISCS[disc].2)
+        }));
+        let outlines = [0, 1].map(|disc| {
+            let center = DVec2::new(DISCS[disc].0, DISCS[disc].1);
+            fit::Contour::circle(center, RADIUS).points
+        });
+        let outlines = outlines.each_ref().map(Vec::as_slice);
+        let mut crowd = Crowd::of(image.pixels(), &outlines).unwrap();
+        assert!((crowd.area / (std::f64::consts::PI * 144.0) - 1.0).abs() < 0.02);
+        let view = crowd
+            .view(image.pixels(), &outlines, &[true, true])
+            .unwrap();
+        let wrong = (0..9000).filter(|at| {
+            let p = DVec2::new((at % 100) as f64, (at / 100) as f64);
+            let edge = DISCS
+                .iter()
+                .any(|disc| (p.distance(DVec2::new(disc.0, disc.1)) - RADIUS).abs() < 1.5);
+            !edge && view.like[*at] != within(p).is_some()
+        });
+        assert_eq!(wrong.count(), 0);
+        assert_eq!(view.owner[30 * 100 + 25], 1);
+        assert_eq!(view.owner[30 * 100 + 70], 2);
+        assert_eq!(view.owner[65 * 100 + 48], 0);
+        assert!(view.share(outlines[1]) > 0.95);
+    }
+
+    #[test]
+    fn nothing_is_told_from_a_ground_that_looks_the_same() {
+        let image = fit::Image::grey(field::Grid::from_shape_fn((90, 100), |(y, x)| {
+            200.0 * field::drawn::uniform(3, (100 * y + x) as u64)
+        }));
+        let outline = fit::Contour::circle(DVec2::splat(40.0), RADIUS).points;
+        let outlines = [outline.as_slice()];
+        let mut crowd = Crowd::of(image.pixels(), &outlines).unwrap();
+        assert!(crowd.view(image.pixels(), &outlines, &[true]).is_none());
+    }
 }

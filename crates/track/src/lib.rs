@@ -33,9 +33,17 @@
 //!
 //! Where it is not seen it flies on, and says so.
 //!
+//! Of many objects, each knows where the others are expected: what belongs to another is none of its own, and what may
+//! belong to either says nothing. Of two that end on one, the one with less evidence looks elsewhere, and ends if both
+//! stay together. Outlines in contact have a common border. With [`Options::births`], the frame is also compared with
+//! what all objects together look like: one that has become two closed regions, or has a neck that is darker than both
+//! its sides, divides (which is undone if its children do not last for two frames); a region that looks like objects
+//! and is none of them is a new one, or one that comes back; and one whose place is empty is lost.
+//!
 //! Units: pixels, x to the right and y down, the first pixel's center at (0, 0); times in frames. This crate reads no
 //! files.
 
+mod assign;
 mod blend;
 mod body;
 mod born;
@@ -48,6 +56,7 @@ mod edges;
 mod error;
 mod evidence;
 mod follow;
+mod neck;
 mod options;
 mod palette;
 mod plane;
@@ -62,6 +71,7 @@ mod shape;
 mod start;
 mod tables;
 mod tracker;
+mod view;
 mod window;
 
 pub use blend::blended;

@@ -7,25 +7,16 @@ use flow::Pyramid;
 use glam::DVec2;
 use ndarray::Array2;
 
+use crate::assign::beside;
 use crate::body::{Body, Frame, Step};
 use crate::contact;
 use crate::crowd::Crowd;
 use crate::divide::Division;
-use crate::follow::Predicted;
-use crate::ring;
 use crate::start::begun;
 use crate::{Event, Happening, Options, Outline, Prediction, State, TrackError, Tracked};
 
 /// How often a frame is halved for flow.
 const SIZES: usize = 5;
-
-/// Two outlines end on one object if they share so much of the smaller one, and were to share less than that before.
-const ONE: f64 = 0.5;
-const APART: f64 = 0.25;
-
-/// Objects that share so much of the smaller one for so many frames are one.
-const MERGED: f64 = 0.6;
-const TOGETHER: u32 = 8;
 
 /// Objects that are followed.
 #[derive(Debug)]
@@ -43,8 +34,8 @@ pub struct Tracker {
     pub(crate) divisions: Vec<Division>,
     /// Objects that have ended and may come back.
     pub(crate) graves: Vec<Object>,
-    /// Pairs of objects that cover each other, and for how many frames.
-    together: BTreeMap<[u32; 2], u32>,
+    /// Pairs of objects that cover each other, for how many frames, and the way between them to begin with.
+    pub(crate) together: BTreeMap<[u32; 2], (u32, DVec2)>,
 }
 
 /// An object with its number.
@@ -61,6 +52,10 @@ pub(crate) struct Object {
     /// In which frame it came, and whether the border of the frame cuts it since.
     pub since: usize,
     pub cut: bool,
+    /// The object that covered it when it was seen last.
+    pub met: Option<u32>,
+    /// In which frame all of it looked like objects last.
+    pub whole: Option<usize>,
     /// Its outline in the frame before. Pixels.
     pub last: Vec<DVec2>,
 }
@@ -164,9 +159,15 @@ impl Tracker {
             .map(|(body, predicted)| body.to_pixels(predicted.expected()))
             .collect();
         let mut followed = Vec::with_capacity(bodies.len());
+        let births = self.crowd.is_some();
         let work = |&index: &usize| {
             let mut body = bodies[index].clone();
-            let step = body.follow(now, &predicted[index], &beside(&expected, index));
+            // where new objects are looked for, one that has left comes back as one of them
+            let step = if births && body.left {
+                body.coast(Some(now.pixels), Prediction::Flown, 0.0)
+            } else {
+                body.follow(now, &predicted[index], &beside(&expected, index))
+            };
             (body, step)
         };
         let order: Vec<usize> = (0..bodies.len()).collect();
@@ -200,6 +201,7 @@ impl Tracker {
             );
             object.unseen = if is.is_seen() { 0 } else { object.unseen + 1 };
         }
+        self.meet();
         let now = Frame {
             before: None,
             pixels: frame.pixels(),
@@ -223,41 +225,6 @@ impl Tracker {
         })
     }
 
-    /// Where two end on one object that were to be apart, the one with less evidence looks elsewhere.
-    fn compete(
-        &self,
-        now: Frame<'_>,
-        predicted: &[Predicted],
-        expected: &[Vec<DVec2>],
-        followed: &mut [(Body, Step)],
-    ) {
-        let mut ended: Vec<Vec<DVec2>> = followed.iter().map(|(body, _)| body.outline()).collect();
-        for i in 1..followed.len() {
-            for j in 0..i {
-                let both = followed[i].1.state.is_seen() && followed[j].1.state.is_seen();
-                if !both
-                    || !contact::near(&ended[i], &ended[j])
-                    || contact::shared(&ended[i], &ended[j]) < ONE
-                    || contact::shared(&expected[i], &expected[j]) > APART
-                {
-                    continue;
-                }
-                let weaker = if followed[i].1.confidence < followed[j].1.confidence {
-                    i
-                } else {
-                    j
-                };
-                let stronger = i + j - weaker;
-                let mut places = expected.to_vec();
-                places[stronger].clone_from(&ended[stronger]);
-                let mut body = self.objects[weaker].body.clone();
-                let step = body.follow(now, &predicted[weaker], &beside(&places, weaker));
-                ended[weaker] = body.outline();
-                followed[weaker] = (body, step);
-            }
-        }
-    }
-
     /// Objects divide, come and go, if they may.
     fn come_and_go(&mut self, image: &Image, now: Frame<'_>, events: &mut Vec<Event>) {
         let outlines = self.outlines();
@@ -270,59 +237,15 @@ impl Tracker {
         let Some(crowd) = &mut self.crowd else {
             return;
         };
-        let mut view = crowd.view(image.pixels(), &outlines, &taught);
+        let Some(mut view) = crowd.view(image.pixels(), &outlines, &taught) else {
+            return;
+        };
         self.reunite(image, now, &mut view, events);
         self.divide(image, now, &mut view, events);
         self.grow(image, now, &mut view);
         self.bear(image, now, &mut view, events);
         self.bury(&view, events);
         self.objects.retain(|object| object.id > 0);
-    }
-
-    /// Of two that cover each other for long, the one with less evidence ends.
-    fn merge(&mut self, events: &mut Vec<Event>) {
-        let outlines = self.outlines();
-        let mut together = BTreeMap::new();
-        let mut ended = Vec::new();
-        for i in 1..self.objects.len() {
-            for j in 0..i {
-                let (a, b) = (&self.objects[i], &self.objects[j]);
-                let both = a.step.state.is_seen() && b.step.state.is_seen();
-                if !both
-                    || !contact::near(&outlines[i], &outlines[j])
-                    || contact::shared(&outlines[i], &outlines[j]) < MERGED
-                {
-                    continue;
-                }
-                let pair = [a.id.min(b.id), a.id.max(b.id)];
-                let frames = self.together.get(&pair).map_or(1, |frames| frames + 1);
-                together.insert(pair, frames);
-                if frames >= TOGETHER {
-                    let weaker = if a.step.confidence < b.step.confidence {
-                        [a.id, b.id]
-                    } else {
-                        [b.id, a.id]
-                    };
-                    ended.push(weaker);
-                }
-            }
-        }
-        self.together = together;
-        for [id, other] in ended {
-            let Some(at) = self.objects.iter().position(|object| object.id == id) else {
-                continue;
-            };
-            let object = self.objects.remove(at);
-            if self.options.births {
-                self.graves.push(object);
-            }
-            events.push(Event {
-                frame: self.frame,
-                id,
-                what: Happening::Merged(other),
-                confidence: 1.0,
-            });
-        }
     }
 
     /// Objects that were not seen for too long end.
@@ -339,7 +262,7 @@ impl Tracker {
     }
 
     /// The outlines of all objects. Pixels.
-    fn outlines(&self) -> Vec<Vec<DVec2>> {
+    pub(crate) fn outlines(&self) -> Vec<Vec<DVec2>> {
         let outlines = self.objects.iter().map(|object| object.body.outline());
         outlines.collect()
     }
@@ -397,6 +320,8 @@ impl Object {
             gone: 0,
             since,
             cut: false,
+            met: None,
+            whole: None,
         }
     }
 
@@ -417,21 +342,6 @@ impl Object {
             prediction: step.prediction,
         }
     }
-}
-
-/// The outlines of other objects that lie near one.
-fn beside(all: &[Vec<DVec2>], index: usize) -> Vec<Vec<DVec2>> {
-    let (low, high) = ring::bounds(&all[index]);
-    let reach = high - low;
-    let near = |other: &[DVec2]| {
-        let (least, most) = ring::bounds(other);
-        least.cmple(high + reach).all() && most.cmpge(low - reach).all()
-    };
-    let others = all
-        .iter()
-        .enumerate()
-        .filter(|(other, outline)| *other != index && near(outline));
-    others.map(|(_, outline)| outline.clone()).collect()
 }
 
 /// A frame as flow sees it.

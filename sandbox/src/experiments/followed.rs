@@ -96,7 +96,7 @@ fn overlap(sequence: &Sequence, a: &[DVec2], b: &[DVec2]) -> f64 {
 }
 
 fn middle(points: &[DVec2]) -> DVec2 {
-    elastic::centroid(points)
+    elastic::centroid(points).unwrap_or_default()
 }
 
 /// The true outline of the frame before, moved by a rule: its overlap with the truth.
@@ -266,7 +266,7 @@ fn draw(record: &Record) -> Drawn {
         let name = shot(frame);
         let grid = record.grid(name)?;
         let panel = Panel::pixels(format!("kicked, frame {frame}"), 192, 192)
-            .with(grey(grid))
+            .with(Picture::new(grey(grid)))
             .with(line(record.xy(name)?, Color::RED).closed())
             .bare();
         shots.push(panel);
