@@ -231,63 +231,6 @@ fn a_frame_that_cannot_be_used_is_coasted_over_and_told() {
 }
 
 #[test]
-fn a_run_that_was_ended_is_gone_on_with() {
-    let folder = frames(8);
-    for frame in 5..8 {
-        std::fs::rename(
-            folder.path(&format!("in/f{frame}.pgm")),
-            folder.path(&format!("f{frame}.pgm")),
-        )
-        .unwrap();
-    }
-    let more = ["-o", "t.csv", "--measure", "m.csv", "--events", "e.csv"];
-    assert_eq!(run(&folder, &more).code, Some(0));
-    let (table, measures) = (read(&folder, "t.csv"), read(&folder, "m.csv"));
-    for frame in 5..8 {
-        std::fs::rename(
-            folder.path(&format!("f{frame}.pgm")),
-            folder.path(&format!("in/f{frame}.pgm")),
-        )
-        .unwrap();
-    }
-    let again = |more: &[&str]| {
-        run(
-            &folder,
-            &[more, &["--resume", "--overlay", "o.gif"]].concat(),
-        )
-    };
-    let answer = again(&more);
-    assert_eq!(answer.code, Some(0), "{answer:?}");
-    assert!(answer.err.contains("goes on with frame 4"), "{answer:?}");
-    let whole = read(&folder, "t.csv");
-    assert!(whole.starts_with(&table), "the rows that were there stay");
-    assert_eq!(middles(&whole).len(), 8);
-    let rows: Vec<String> = read(&folder, "m.csv").lines().map(str::to_owned).collect();
-    assert_eq!(rows.len(), 9);
-    assert_eq!(
-        rows[..5],
-        measures.lines().map(str::to_owned).collect::<Vec<_>>()[..5]
-    );
-    let last = middles(&whole)[7];
-    assert!((last.1 - 34.0).abs() < 0.5, "{last:?}");
-    // a rest of a run that was killed is not written over, and gone on with if that is asked for
-    let cut = whole
-        .lines()
-        .take_while(|line| !line.starts_with("6,"))
-        .map(|line| format!("{line}\n"))
-        .collect::<String>();
-    std::fs::remove_file(folder.path("t.csv")).unwrap();
-    folder.write("t.csv.part", cut + "6,1,3");
-    folder.refused(
-        &[&["track", "in", "-q"][..], &START, &["-o", "t.csv"]].concat(),
-        &["t.csv.part", "--resume"],
-    );
-    assert_eq!(again(&more).code, Some(0));
-    assert!(!folder.path("t.csv.part").exists());
-    assert_eq!(middles(&read(&folder, "t.csv")).len(), 8);
-}
-
-#[test]
 fn an_outline_that_was_mended_by_hand_is_gone_on_from() {
     let folder = frames(6);
     let mut rows = String::from("frame,id,x,y\n");

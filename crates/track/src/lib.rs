@@ -44,8 +44,10 @@
 //! files.
 
 mod assign;
+mod blend;
 mod body;
 mod born;
+mod by_hand;
 mod contact;
 mod correct;
 mod crowd;
@@ -72,6 +74,7 @@ mod tracker;
 mod view;
 mod window;
 
+pub use blend::blended;
 pub use body::State;
 pub use error::TrackError;
 pub use options::{Options, Start};

@@ -22,11 +22,11 @@ const SIZES: usize = 5;
 #[derive(Debug)]
 pub struct Tracker {
     pub(crate) options: Options,
-    size: (usize, usize),
+    pub(crate) size: (usize, usize),
     pub(crate) frame: usize,
     pub(crate) next_id: u32,
     pub(crate) objects: Vec<Object>,
-    before: Pyramid,
+    pub(crate) before: Pyramid,
     first: Tracked,
     /// What all look like, where objects may divide and be born.
     pub(crate) crowd: Option<Crowd>,
@@ -291,45 +291,6 @@ impl Tracker {
             });
         }
         tracked
-    }
-
-    /// Set the outline of an object in the last frame, by hand: tracking goes on from there.
-    ///
-    /// # Errors
-    ///
-    /// No such object; an outline without area in the frame; a frame of another size.
-    pub fn mend(&mut self, frame: &Image, id: u32, outline: &[DVec2]) -> Result<Event, TrackError> {
-        let (needed, got) = (self.size, frame.size());
-        if needed != got {
-            return Err(TrackError::Size {
-                frame: self.frame,
-                needed,
-                got,
-            });
-        }
-        let known = self.objects.iter().map(|object| object.id).collect();
-        let (width, height) = self.size;
-        let Some(object) = self.objects.iter_mut().find(|object| object.id == id) else {
-            return Err(TrackError::NoObject { id, known });
-        };
-        let now = Frame {
-            pixels: frame.pixels(),
-            pyramid: &self.before,
-            before: None,
-        };
-        object.body = Body::new(now, outline).ok_or(TrackError::Start {
-            index: 0,
-            width,
-            height,
-        })?;
-        (object.unseen, object.gone) = (0, 0);
-        object.step = Step::begun();
-        Ok(Event {
-            frame: self.frame,
-            id,
-            what: Happening::Mended,
-            confidence: 1.0,
-        })
     }
 
     fn add(&mut self, body: Body) {

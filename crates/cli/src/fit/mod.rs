@@ -35,6 +35,7 @@ pub(crate) use self::options::rules as search_rules;
 use self::results::write;
 pub(crate) use self::said::counted;
 use self::said::{said, summary};
+pub(crate) use self::seeds::Where;
 use self::sheet::{Rest, Sheet};
 pub(crate) use self::start::{Start, stem, typed};
 use crate::args::Words;

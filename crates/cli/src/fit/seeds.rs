@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use glam::DVec2;
 use instances::{Circle, Object, Rules, Seeds, outline_all};
 use io::Picture;
-use io::shapes::Shape;
+use io::shapes::{Reading, Shape};
 use scene::SceneError;
 use score::Measures;
 
 use super::flags::Flags;
 use super::one::{Found, Measured, noted};
-use super::start::{load, named};
+use super::start::{named, parts, reading};
 use crate::commands::key;
 
 /// Where many objects are looked for, as typed.
@@ -36,7 +36,7 @@ impl std::str::FromStr for Where {
 
 impl Where {
     /// The file that is read for a picture of that name.
-    pub(super) fn file(&self, stem: &str) -> Option<PathBuf> {
+    pub(crate) fn file(&self, stem: &str) -> Option<PathBuf> {
         match self {
             Self::Auto => None,
             Self::File(path) => Some(named(path, stem)),
@@ -50,10 +50,25 @@ impl Where {
         flags: &Flags,
         stem: &str,
     ) -> Result<Vec<Found>, SceneError> {
+        let rules = Rules::default();
+        let (objects, shapes) = self.objects(picture, &reading(flags)?, stem)?;
+        Ok(objects
+            .into_iter()
+            .map(|object| told(object, &shapes, &rules))
+            .collect())
+    }
+
+    /// All objects, and the shapes that they were looked for at, read so.
+    pub(crate) fn objects(
+        &self,
+        picture: &Picture,
+        reading: &Reading,
+        stem: &str,
+    ) -> Result<(Vec<Object>, Vec<Shape>), SceneError> {
         let (seeds, shapes) = match self.file(stem) {
             None => (Seeds::Auto, Vec::new()),
             Some(path) => {
-                let shapes = load("--seeds", &path, flags)?;
+                let (shapes, _) = parts("--seeds", &path, reading)?;
                 match &shapes[..] {
                     // the rows of a table that names no curve are points
                     [one] if one.closed.is_none() => {
@@ -64,14 +79,9 @@ impl Where {
                 }
             }
         };
-        let rules = Rules::default();
-        let found = outline_all(picture, &seeds, &rules);
+        let found = outline_all(picture, &seeds, &Rules::default());
         let found = found.map_err(|error| key("--seeds", error))?;
-        Ok(found
-            .objects
-            .into_iter()
-            .map(|object| told(object, &shapes, &rules))
-            .collect())
+        Ok((found.objects, shapes))
     }
 }
 

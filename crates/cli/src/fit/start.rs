@@ -151,13 +151,8 @@ pub(super) fn named(path: &Path, stem: &str) -> PathBuf {
     }
 }
 
-/// The outlines of a file, each part of one an outline of its own.
-pub(super) fn load(flag: &str, path: &Path, flags: &Flags) -> Result<Vec<Shape>, SceneError> {
-    parts(flag, path, &reading(flags)?).map(|(shapes, _)| shapes)
-}
-
-/// [`load`], and what people should know of how the file was read.
-fn parts(
+/// The outlines of a file, each part of one an outline of its own, and what people should know of how it was read.
+pub(super) fn parts(
     flag: &str,
     path: &Path,
     reading: &Reading,
@@ -192,7 +187,7 @@ fn holes(path: &Path, shapes: &[Shape]) -> Option<String> {
 }
 
 /// How the file of the start is read.
-fn reading(flags: &Flags) -> Result<Reading, SceneError> {
+pub(super) fn reading(flags: &Flags) -> Result<Reading, SceneError> {
     let about = flags.about.as_ref();
     Ok(Reading {
         beside: about.map(|about| about.name.clone()),

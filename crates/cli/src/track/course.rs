@@ -1,35 +1,24 @@
-//! Objects on their way through the frames: each frame followed, written, told.
+//! What is told of each frame: written, counted, said.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
-use ::track::{Happening, Outline, State, Tracker};
+use ::track::{Happening, Outline, State};
 use io::Picture;
-use io::frames::{Frame, Numbered};
-use io::tracks::{TableFrames, TrackState, Tracked};
+use io::tracks::{TrackState, Tracked};
 use scene::SceneError;
-use scene::fit::Image;
 
-use super::flags::Flags;
-use super::numbers::Numbers;
+use super::run::Told;
 use super::sinks::{Happened, Seen, Sinks};
 use crate::args::Words;
-use crate::commands::key;
 
 /// Objects beyond which what happens to each is only written.
 const FEW: usize = 10;
 
-/// A sequence that is followed.
-#[derive(Debug)]
+/// A sequence that is told.
+#[derive(Debug, Default)]
 pub(super) struct Course {
-    tracker: Tracker,
-    numbers: Numbers,
-    /// The frame that the tracker counts as 0.
-    from: usize,
-    /// Outlines mended by hand, by frames.
-    mended: BTreeMap<usize, Vec<Tracked>>,
     /// Whether new objects may come.
-    births: bool,
+    pub(super) births: bool,
     pub(super) tally: Tally,
 }
 
@@ -53,123 +42,35 @@ pub(super) struct Tally {
 }
 
 impl Course {
-    pub(super) fn new(
-        tracker: Tracker,
-        numbers: Numbers,
-        from: usize,
-        flags: &Flags,
-    ) -> Result<Self, SceneError> {
-        let mut mended = BTreeMap::new();
-        if let Some(path) = &flags.mend {
-            for rows in TableFrames::open(path)? {
-                let (frame, outlines) = rows?;
-                mended.insert(frame, outlines);
-            }
-        }
-        Ok(Self {
-            tracker,
-            numbers,
-            from,
-            mended,
-            births: flags.births,
-            tally: Tally::default(),
-        })
-    }
-
-    /// A frame that was to be mended and was not there.
-    pub(super) fn not_mended(&self) -> Option<usize> {
-        self.mended.keys().next().copied()
-    }
-
     /// Whether nothing is followed any more, and nothing will be.
     pub(super) fn is_over(&self) -> bool {
         self.tally.alive == 0 && self.tally.frames > 0 && !self.births
     }
 
-    /// The first frame.
-    pub(super) fn first(
+    /// Write and tell a frame.
+    pub(super) fn tell(
         &mut self,
-        picture: &Arc<Picture>,
-        name: &str,
-        sinks: &mut Sinks<'_>,
-        words: Words,
-    ) -> Result<(), SceneError> {
-        let tracked = self.tracker.first().clone();
-        let image = Image::of(Arc::<Picture>::clone(picture));
-        self.take(tracked, Some(picture), Some(&image), name, sinks, words)
-    }
-
-    /// Take the first frame as one that is written and told already.
-    pub(super) fn again(&mut self) {
-        let ids: Vec<u32> = self
-            .tracker
-            .first()
-            .outlines
-            .iter()
-            .map(|outline| outline.id)
-            .collect();
-        let own = ids.into_iter().map(|id| self.numbers.of_object(id));
-        self.tally.objects = own.collect();
-        (self.tally.alive, self.tally.last) = (self.tally.objects.len(), self.from);
-    }
-
-    /// The next frame.
-    pub(super) fn next(
-        &mut self,
-        frame: Numbered,
-        sinks: &mut Sinks<'_>,
-        words: Words,
-    ) -> Result<(), SceneError> {
-        match frame.frame {
-            Frame::Broken(reason) => {
-                words.say(&format!(
-                    "frame {}, {}: {reason}; all goes on as it was going",
-                    frame.index, frame.name
-                ));
-                self.tally.broken.push(frame.name.clone());
-                let tracked = self.tracker.skip();
-                self.take(tracked, None, None, &frame.name, sinks, words)
-            }
-            Frame::Picture(picture) => {
-                let picture: Arc<Picture> = Arc::from(*picture);
-                let image = Image::of(Arc::<Picture>::clone(&picture));
-                let tracked = self
-                    .tracker
-                    .next(&image)
-                    .map_err(|error| key("frames", error))?;
-                self.take(
-                    tracked,
-                    Some(&picture),
-                    Some(&image),
-                    &frame.name,
-                    sinks,
-                    words,
-                )
-            }
-        }
-    }
-
-    /// What a frame has said: written and told.
-    fn take(
-        &mut self,
-        mut tracked: ::track::Tracked,
+        told: &Told,
         picture: Option<&Picture>,
-        image: Option<&Image>,
-        name: &str,
         sinks: &mut Sinks<'_>,
         words: Words,
     ) -> Result<(), SceneError> {
-        let frame = tracked.frame + self.from;
-        let mut given = BTreeSet::new();
-        if let Some(image) = image {
-            for outline in self.mended.remove(&frame).unwrap_or_default() {
-                self.mend(&outline, image, &mut tracked)?;
-                given.insert(outline.id);
-            }
+        let (frame, name) = (told.index, &told.name);
+        if told.missing > 0 {
+            words.say(&format!(
+                "note: {} missing before {name}: objects go on by as many",
+                crate::fit::counted(usize::try_from(told.missing).unwrap_or(usize::MAX), "frame")
+            ));
+        }
+        if let Some(reason) = &told.broken {
+            words.say(&format!(
+                "frame {frame}, {name}: {reason}; all goes on as it was going"
+            ));
+            self.tally.broken.push(name.clone());
         }
         let mut seen = Vec::new();
-        for outline in &tracked.outlines {
-            let one = self.tracked(frame, outline, &given);
+        for outline in &told.outlines {
+            let one = tracked(frame, outline, &told.given);
             if words.verbose {
                 words.detail(&format!(
                     "frame {frame}, object {}: {}, confidence {:.2}, {:?}",
@@ -184,18 +85,16 @@ impl Course {
                 outline: outline.clone(),
             });
         }
-        let happened: Vec<Happened> = tracked
+        let happened: Vec<Happened> = told
             .events
             .iter()
             .map(|event| Happened {
                 frame,
-                id: self.numbers.of_object(event.id),
+                id: event.id,
                 word: word(&event.what),
                 others: match &event.what {
-                    Happening::Divided(both) => {
-                        both.iter().map(|&id| self.numbers.of_object(id)).collect()
-                    }
-                    Happening::Merged(other) => vec![self.numbers.of_object(*other)],
+                    Happening::Divided(both) => both.to_vec(),
+                    Happening::Merged(other) => vec![*other],
                     _ => Vec::new(),
                 },
                 confidence: event.confidence,
@@ -215,61 +114,6 @@ impl Course {
             }
         }
         sinks.frame(frame, name, picture, &seen, &happened)
-    }
-
-    fn mend(
-        &mut self,
-        outline: &Tracked,
-        image: &Image,
-        tracked: &mut ::track::Tracked,
-    ) -> Result<(), SceneError> {
-        let refuse = |message: String| {
-            key(
-                "--mend",
-                format!("frame {}, object {}: {message}", outline.frame, outline.id),
-            )
-        };
-        let id = self.numbers.object(outline.id);
-        let id = id.ok_or_else(|| refuse("no such object is followed then".to_owned()))?;
-        let event = self
-            .tracker
-            .mend(image, id, &outline.points)
-            .map_err(|error| refuse(error.to_string()))?;
-        for one in tracked.outlines.iter_mut().filter(|one| one.id == id) {
-            one.points.clone_from(&outline.points);
-            let share = 1.0 / outline.points.len().max(1) as f64;
-            one.material = (0..outline.points.len())
-                .map(|i| i as f64 * share)
-                .collect();
-            one.errors = vec![0.0; outline.points.len()];
-            (one.state, one.confidence) = (State::Seen, 1.0);
-        }
-        tracked.events.push(event);
-        Ok(())
-    }
-
-    fn tracked(&mut self, frame: usize, outline: &Outline, given: &BTreeSet<u32>) -> Tracked {
-        let id = self.numbers.of_object(outline.id);
-        let state = match outline.state {
-            _ if given.contains(&id) => TrackState::Given,
-            State::Seen => TrackState::Tracked,
-            State::Partly => TrackState::Partly,
-            State::Coasting | State::Left => TrackState::Coasting,
-        };
-        let sure = outline.confidence;
-        Tracked {
-            frame,
-            id,
-            points: outline.points.clone(),
-            parent: outline.parent.map(|parent| self.numbers.of_object(parent)),
-            confidence: Some(if sure.is_finite() {
-                sure.clamp(0.0, 1.0)
-            } else {
-                0.0
-            }),
-            state,
-            measures: BTreeMap::new(),
-        }
     }
 
     fn count(&mut self, frame: usize, seen: &[Seen], happened: &[Happened]) {
@@ -296,6 +140,29 @@ impl Course {
                 _ => {}
             }
         }
+    }
+}
+
+fn tracked(frame: usize, outline: &Outline, given: &BTreeSet<u32>) -> Tracked {
+    let state = match outline.state {
+        _ if given.contains(&outline.id) => TrackState::Given,
+        State::Seen => TrackState::Tracked,
+        State::Partly => TrackState::Partly,
+        State::Coasting | State::Left => TrackState::Coasting,
+    };
+    let sure = outline.confidence;
+    Tracked {
+        frame,
+        id: outline.id,
+        points: outline.points.clone(),
+        parent: outline.parent,
+        confidence: Some(if sure.is_finite() {
+            sure.clamp(0.0, 1.0)
+        } else {
+            0.0
+        }),
+        state,
+        measures: BTreeMap::new(),
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, ValueEnum};
 
-use crate::fit::{Origin, Start};
+use crate::fit::{Origin, Start, Where};
 
 /// What the long help ends with.
 pub(crate) const EXAMPLES: &str = "\
@@ -14,6 +14,7 @@ Examples:
   snake track stack.tif --from labels.tif --births -o 01_RES --as ctc --events events.csv
   snake track clip.mp4 --from box:40,60,220,180 -o boxes.txt --as mot --overlay seen.mp4
   snake track frames/ --from start.csv -o tracks.csv --resume
+  snake track cells/ --seeds auto --at 40 --mend by_hand.csv -o tracks.csv
 
 Exit code 0: all objects were followed to the end. 1: one was lost or is not seen at the end, a frame could not be \
 read, or it was stopped. 2: refused, and why.";
@@ -24,12 +25,19 @@ pub(crate) struct Flags {
     /// program ffmpeg, where it is installed); `-` is standard input, of PGM or PPM pictures one behind the other.
     #[arg(required = true, value_name = "FRAME")]
     pub frames: Vec<PathBuf>,
-    /// Where the objects are in the first frame: `circle:X,Y,RADIUS`, `box:LEFT,TOP,WIDTH,HEIGHT`,
+    /// Where the objects are in the first frame, or in that of --at; may be given several times: `circle:X,Y,RADIUS`, `box:LEFT,TOP,WIDTH,HEIGHT`,
     /// `ellipse:X,Y,RX,RY[,DEGREES]`, `polygon:X,Y,X,Y,…` or `click:X,Y` in pixels, the first pixel's center at 0,0; or
     /// a file of one or several outlines or points: CSV, GeoJSON, COCO, `ImageJ`, SVG, labelme, CVAT, a mask or labels.
     /// `{stem}` in its name stands for the name of the first file without its ending.
-    #[arg(long, short, value_name = "START")]
-    pub from: Start,
+    #[arg(long, short, value_name = "START", required_unless_present = "seeds")]
+    pub from: Vec<Start>,
+    /// Look for many objects: `auto` finds them, a file has points or outlines of half their size.
+    #[arg(long, value_name = "SEEDS", conflicts_with = "from")]
+    pub seeds: Option<Where>,
+    /// The frame that the start is in, by its number from 0 or the name of its file. Frames before it are followed
+    /// back from it; those of a video or of standard input cannot be, and are left out.
+    #[arg(long, value_name = "FRAME")]
+    pub at: Option<String>,
     /// How a start is taken: exactly as it is, roughly (the outline that is found about it), or whichever suits it.
     #[arg(long, value_enum, default_value_t = Taken::Auto)]
     pub start: Taken,
@@ -66,7 +74,9 @@ pub(crate) struct Flags {
     /// Write where the middles of the objects went: a picture (png), over the last frame, or a table (csv).
     #[arg(long, value_name = "FILE")]
     pub trajectories: Option<PathBuf>,
-    /// Outlines mended by hand, a table frame,id,x,y: objects go on from there.
+    /// Outlines mended by hand, a table frame,id,x,y: objects go on from there, and between two outlines that are given
+    /// (the start is one) they are followed both ways and blended. Frames are read several times then; those of a video
+    /// or of standard input cannot be, and objects only go on.
     #[arg(long, value_name = "CSV")]
     pub mend: Option<PathBuf>,
     /// Give up an object that was not seen for so many frames.
@@ -78,9 +88,9 @@ pub(crate) struct Flags {
     /// Say of each frame how each object was found, and what happened.
     #[arg(long)]
     pub explain: bool,
-    /// Go on with the table of --out, from the last frame that is in it: appearance is learnt anew there. Rows of
-    /// --measure and --events are kept.
-    #[arg(long, requires = "out", conflicts_with = "kymograph")]
+    /// Go on with the table of --out as if the run had not been ended: frames are followed again from the first, which
+    /// takes its time; what is there is compared, not written, and where it differs, the run is refused.
+    #[arg(long, requires = "out")]
     pub resume: bool,
     /// Refuse to write over a file that is there.
     #[arg(long)]

@@ -1,39 +1,40 @@
 //! `snake track`: outlines followed through the frames of a sequence.
 
 mod along;
+mod between;
 mod course;
 mod film;
 mod flags;
 mod numbers;
 mod plan;
+mod run;
 mod said;
 mod sinks;
+mod start;
 mod tables;
 mod values;
 mod ways;
 
 use std::sync::Arc;
 
-use ::track::{Options, Tracker};
+use ::track::Options;
+use indicatif::ProgressBar;
 use io::frames::{Frame, Frames, Numbered};
-use io::shapes::{Reading, Shape};
 use io::tracks::TableFrames;
 use io::{Picture, PictureReading};
 use scene::SceneError;
-use scene::fit::{Contour, Image};
 
 use self::course::Course;
-use self::flags::Taken;
 pub(crate) use self::flags::{EXAMPLES, Flags};
-use self::numbers::Numbers;
 use self::plan::Plan;
+use self::run::{Facts, MOST_MISSING, Run, Told};
 use self::sinks::Sinks;
 use crate::args::Words;
 use crate::commands::{Answer, code, key};
-use crate::fit::{matched, stem, typed};
+use crate::fit::{counted, matched};
 use crate::stop::{STOPPED, Stop};
 
-/// Follow the outlines of the first frame through all.
+/// Follow outlines through all frames.
 pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
     let words = Words {
         verbose: words.verbose || flags.explain,
@@ -45,57 +46,44 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
         as_stored: flags.as_stored,
         ..PictureReading::default()
     };
-    let inputs = matched(&flags.frames)?;
-    let mut frames = Frames::open(&inputs, &reading)?;
-    plan.check(flags, &frames)?;
+    let mut frames = Frames::open(&matched(&flags.frames)?, &reading)?;
+    let at = start::place(flags, &frames)?;
+    plan.check(flags, &frames, at)?;
+    let mut facts = facts(flags)?;
     notes(&mut frames, words);
+    far_apart(&frames, words);
     let stop = Stop::listen();
-    let from = if flags.resume {
-        TableFrames::last(plan.out())?
-    } else {
-        None
+    let seekable = frames.is_seekable();
+    frames.pass(at);
+    let Some(first) = frames.next() else {
+        let message = "there is no such frame: the sequence has ended before it";
+        return Err(key("--at", message));
     };
-    let (tracked_before, first) = match &from {
-        None => (0, next(&mut frames)?),
-        Some((frame, _)) => {
-            frames.pass(*frame);
-            (*frame, next(&mut frames)?)
+    let picture = match &first.frame {
+        Frame::Picture(picture) => Arc::new(Picture::clone(picture)),
+        Frame::Broken(reason) => {
+            let name = if at == 0 { "first frame" } else { "--at" };
+            return Err(key(name, format!("{}: {reason}", first.name)));
         }
-    };
-    let Frame::Picture(picture) = first.frame else {
-        let Frame::Broken(reason) = first.frame else {
-            return Ok(code(false));
-        };
-        return Err(key("first frame", format!("{}: {reason}", first.name)));
     };
     for note in picture.notes() {
         words.say(&format!("note: {note}"));
     }
-    let picture: Arc<Picture> = Arc::from(*picture);
-    let (starts, numbers) = match &from {
-        None => starts(flags, &frames, &picture, words)?,
-        Some((_, outlines)) => {
-            words.say(&format!(
-                "goes on with frame {}, {}",
-                tracked_before, first.name
-            ));
-            let starts = outlines.iter().map(|one| Contour {
-                points: one.points.clone(),
-                closed: true,
-            });
-            (
-                starts.collect(),
-                Numbers::given(outlines.iter().map(|one| one.id)),
+    let (starts, numbers) = start::starts(flags, &frames, at, &picture, words)?;
+    let options = start::options(flags);
+    let begin = |numbers, options: &Options, back| {
+        Run::begin(&first, &picture, &starts, numbers, options, back).map_err(|error| {
+            key(
+                if flags.seeds.is_some() {
+                    "--seeds"
+                } else {
+                    "--from"
+                },
+                error,
             )
-        }
+        })
     };
-    let options = options(flags, from.is_some());
-    let tracker = Tracker::new(
-        &Image::of(Arc::<Picture>::clone(&picture)),
-        &starts,
-        &options,
-    );
-    let tracker = tracker.map_err(|error| key("--from", error))?;
+    let mut run = begin(numbers.clone(), &options, false)?;
     if let Some(id) = flags.object.filter(|id| !numbers.is_known(*id)) {
         return Err(key(
             "--object",
@@ -105,54 +93,211 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
             ),
         ));
     }
-    // the frame that is gone on with is written already
-    let there = from.as_ref().map_or(0, |(frame, _)| frame + 1);
-    let mut sinks = Sinks::begin(flags, &plan, &frames, &picture, there)?;
-    sinks.charts(numbers.first(), there);
-    if there > 0 {
-        sinks.replay(&inputs, &reading, there)?;
+    let mut sinks = Sinks::begin(flags, &plan, &frames, &picture)?;
+    let begins = if seekable { 0 } else { at };
+    sinks.charts(numbers.first(), begins);
+    if sinks.is_behind() {
+        words.say("--resume: frames are followed again from the first; what is there is compared");
     }
-    let mut course = Course::new(tracker, numbers, tracked_before, flags)?;
-    if there == 0 {
-        course.first(&picture, &first.name, &mut sinks, words)?;
+    let bar = said::bar(frames.total(), begins, words);
+    let mut course = Course {
+        births: flags.births,
+        ..Course::default()
+    };
+    let mut all = Whole {
+        frames: &mut frames,
+        course: &mut course,
+        sinks: &mut sinks,
+        stop: &stop,
+        bar: &bar,
+        words,
+    };
+    let before = if seekable && at > 0 {
+        let back = Options {
+            births: false,
+            ..options.clone()
+        };
+        Some(begin(numbers, &back, true)?)
     } else {
-        course.again();
-    }
-    let bar = said::bar(frames.total(), tracked_before, words);
-    while !stop.asked() && !course.is_over() {
-        let Some(frame) = frames.next() else { break };
-        bar.suspend(|| notes(&mut frames, words));
-        bar.suspend(|| course.next(frame, &mut sinks, words))?;
-        bar.inc(1);
-    }
+        None
+    };
+    let ways = Ways {
+        at,
+        first: &first,
+        picture: &picture,
+        options: &options,
+    };
+    let followed = all.follow(&ways, &mut run, before, &mut facts);
     bar.finish_and_clear();
-    let left = left(&mut frames, stop.asked());
     notes(&mut frames, words);
-    for note in sinks.end()? {
-        words.say(&format!("note: {note}"));
+    let stopped = stop.asked();
+    let left = if stopped { frames.left() } else { Some(0) };
+    if matches!(followed, Ok(false)) {
+        sinks.discard()?;
+        words.say("stopped by Ctrl-C before anything was to be written: nothing is changed");
+    } else {
+        end(sinks, followed.map(|_| ()), stopped, words)?;
     }
-    if let (false, Some(frame)) = (stop.asked(), course.not_mended()) {
+    facts.append(&mut run.facts);
+    if let (false, Some(frame)) = (stopped, facts.keys().next()) {
         words.say(&format!(
             "note: --mend: frame {frame} was not followed, and nothing is mended there"
         ));
-    }
-    let stopped = stop.asked();
-    if stopped {
-        words.say(&format!("{STOPPED}; --resume goes on with a table"));
     }
     let good = said::summary(&course, left, stopped, words)?;
     Ok(code(good))
 }
 
-/// The next frame, which must be there.
-fn next(frames: &mut Frames) -> Result<Numbered, SceneError> {
-    let message = "there is no such frame: the sequence has ended before it";
-    frames.next().ok_or_else(|| key("frames", message))
+/// Finish what is written, however the way has ended.
+fn end(
+    sinks: Sinks<'_>,
+    followed: Result<(), SceneError>,
+    stopped: bool,
+    words: Words,
+) -> Result<(), SceneError> {
+    if sinks.is_behind() && (stopped || followed.is_err()) {
+        // what a former run has written is more than what there is by now
+        words.say("ended before all was followed again that is there: nothing is changed");
+        return followed;
+    }
+    let kept = sinks.end();
+    if followed.is_err() && kept.is_ok() {
+        words.say("ended by an error: what there was by then is written");
+    }
+    followed?;
+    for note in kept? {
+        words.say(&format!("note: {note}"));
+    }
+    if stopped {
+        words.say(&format!("{STOPPED}; --resume goes on with a table"));
+    }
+    Ok(())
 }
 
-/// How many frames are left behind, if that is known.
-const fn left(frames: &mut Frames, stopped: bool) -> Option<usize> {
-    if stopped { frames.left() } else { Some(0) }
+/// Where the way begins, and how it is gone.
+struct Ways<'a> {
+    at: usize,
+    first: &'a Numbered,
+    picture: &'a Arc<Picture>,
+    options: &'a Options,
+}
+
+/// A sequence with all that is made of it.
+struct Whole<'a, 'b> {
+    frames: &'a mut Frames,
+    course: &'a mut Course,
+    sinks: &'a mut Sinks<'b>,
+    stop: &'a Stop,
+    bar: &'a ProgressBar,
+    words: Words,
+}
+
+impl Whole<'_, '_> {
+    /// Follow all; whether anything is to be written of it. `before` goes from the start back to the first frame.
+    fn follow(
+        &mut self,
+        ways: &Ways<'_>,
+        run: &mut Run,
+        before: Option<Run>,
+        facts: &mut Facts,
+    ) -> Result<bool, SceneError> {
+        let seekable = self.frames.is_seekable();
+        let (ahead_only, mut behind) = (std::mem::take(facts), before);
+        let (earlier, later) = between::sides(ahead_only, ways.at);
+        run.facts = later;
+        let farthest = run.facts.keys().next_back().copied();
+        let farthest = farthest.filter(|&frame| seekable && frame > ways.at);
+        match &mut behind {
+            Some(behind) => behind.facts = earlier,
+            None => facts.extend(earlier),
+        }
+        if !seekable && (ways.at > 0 || !run.facts.is_empty()) {
+            self.words.say(
+                "note: a video or a stream cannot be read back: objects are only followed onwards",
+            );
+        }
+        let first = run.first(ways.first, ways.picture)?;
+        let mut told = Vec::new();
+        if let Some(behind) = &mut behind {
+            let first = behind.first(ways.first, ways.picture)?;
+            let options = ways.options;
+            let Some(mut way) =
+                between::outwards(self.frames, behind, first, 0, options, self.stop)?
+            else {
+                return Ok(false);
+            };
+            facts.append(&mut behind.facts);
+            way.reverse();
+            way.pop();
+            told.append(&mut way);
+        }
+        let Some(to) = farthest.or((ways.at > 0 && seekable).then_some(ways.at)) else {
+            self.told(&first, Some(ways.picture))?;
+            return self.onwards(run).map(|()| true);
+        };
+        let Some(mut way) =
+            between::outwards(self.frames, run, first, to, ways.options, self.stop)?
+        else {
+            return Ok(false);
+        };
+        told.append(&mut way);
+        between::retold(&mut told);
+        let next = told.last().map_or(0, |last| last.index + 1);
+        for one in &told {
+            if self.stop.asked() {
+                return Ok(true);
+            }
+            let picture = if self.sinks.needs_pictures() && self.frames.seek(one.index) {
+                let frame = self.frames.next();
+                frame.and_then(|frame| between::picture_of(frame))
+            } else {
+                None
+            };
+            self.told(one, picture.as_ref())?;
+        }
+        self.frames.seek(next);
+        self.onwards(run).map(|()| true)
+    }
+
+    /// Follow and tell all that comes.
+    fn onwards(&mut self, run: &mut Run) -> Result<(), SceneError> {
+        while !self.stop.asked() && !self.course.is_over() {
+            let Some(frame) = self.frames.next() else {
+                break;
+            };
+            self.bar.suspend(|| notes(self.frames, self.words));
+            let (told, picture) = run.step(frame)?;
+            self.told(&told, picture.as_ref())?;
+        }
+        Ok(())
+    }
+
+    /// Write and tell a frame.
+    fn told(&mut self, told: &Told, picture: Option<&Arc<Picture>>) -> Result<(), SceneError> {
+        let behind = self.sinks.is_behind();
+        let (course, sinks, words) = (&mut *self.course, &mut *self.sinks, self.words);
+        let picture = picture.map(AsRef::as_ref);
+        self.bar
+            .suspend(|| course.tell(told, picture, sinks, words))?;
+        if behind && !self.sinks.is_behind() {
+            let text = format!("goes on behind frame {}", told.index);
+            self.bar.suspend(|| words.say(&text));
+        }
+        self.bar.inc(1);
+        Ok(())
+    }
+}
+
+/// What is given by hand, by frames.
+fn facts(flags: &Flags) -> Result<Facts, SceneError> {
+    let mut facts = Facts::new();
+    if let Some(path) = &flags.mend {
+        for rows in TableFrames::open(path)? {
+            let (frame, outlines) = rows?;
+            facts.insert(frame, outlines);
+        }
+    }
+    Ok(facts)
 }
 
 /// Say what there is to say of the frames.
@@ -162,46 +307,13 @@ fn notes(frames: &mut Frames, words: Words) {
     }
 }
 
-/// The outlines to begin with, and the numbers that they have.
-fn starts(
-    flags: &Flags,
-    frames: &Frames,
-    picture: &Picture,
-    words: Words,
-) -> Result<(Vec<Contour>, Numbers), SceneError> {
-    let file = frames.files().first().cloned().unwrap_or_default();
-    let reading = Reading {
-        beside: file
-            .file_name()
-            .map(|name| name.to_string_lossy().into_owned()),
-        size: Some(picture.size()),
-        ..typed(&flags.columns, flags.origin)?
-    };
-    let (shapes, notes) = flags.from.outlines(&reading, &stem(&file))?;
-    for note in notes {
-        words.say(&format!("note: {note}"));
-    }
-    let numbers = Numbers::of(&shapes);
-    let contour = |shape: &Shape| Contour {
-        points: shape.first().to_vec(),
-        closed: shape.closed.unwrap_or(true),
-    };
-    Ok((shapes.iter().map(contour).collect(), numbers))
-}
-
-fn options(flags: &Flags, again: bool) -> Options {
-    let start = match flags.start {
-        _ if again => ::track::Start::Exact,
-        Taken::Auto => ::track::Start::Chosen,
-        Taken::Exact => ::track::Start::Exact,
-        Taken::Rough => ::track::Start::Rough,
-    };
-    let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    Options {
-        start,
-        patience: flags.patience,
-        births: flags.births,
-        threads: flags.jobs.unwrap_or_else(cores).max(1),
-        ..Options::default()
+/// Say where more frames are missing than objects go on by.
+fn far_apart(frames: &Frames, words: Words) {
+    for gap in frames.gaps().iter().filter(|gap| gap.count > MOST_MISSING) {
+        let count = usize::try_from(gap.count).unwrap_or(usize::MAX);
+        words.say(&format!(
+            "note: {gap}: {} missing, more than {MOST_MISSING}: objects are looked for where they were",
+            counted(count, "frame")
+        ));
     }
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use io::shapes::Shape;
 
 /// The numbers that objects are written with, by the numbers that they are followed with.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Numbers {
     known: BTreeMap<u32, u32>,
     next: u32,
@@ -42,6 +42,13 @@ impl Numbers {
             self.next = self.next.saturating_add(1);
             own
         })
+    }
+
+    /// An object that is followed has that number from now on, and no other has it.
+    pub(super) fn set(&mut self, id: u32, number: u32) {
+        self.known.retain(|_, own| *own != number);
+        self.known.insert(id, number);
+        self.next = self.next.max(number.saturating_add(1));
     }
 
     /// The least number there is.
@@ -87,6 +94,9 @@ mod tests {
             [7, 3, 8, 9, 8]
         );
         assert_eq!((numbers.object(3), numbers.object(4)), (Some(2), None));
+        // one that was lost and is taken up again under its number
+        numbers.set(11, 3);
+        assert_eq!((numbers.object(3), numbers.of_object(12)), (Some(11), 9));
         for list in [["7", "7"], ["a", "1"], ["0", "1"]] {
             let mut numbers = Numbers::of(&list.map(shape));
             assert_eq!([1, 2, 3].map(|id| numbers.of_object(id)), [1, 2, 3]);

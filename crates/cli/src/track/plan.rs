@@ -98,16 +98,20 @@ impl Plan {
     }
 
     /// Make sure before the work that everything can be written after it, and takes the place of nothing that is read.
-    pub(super) fn check(&self, flags: &Flags, frames: &Frames) -> Result<(), SceneError> {
+    pub(super) fn check(
+        &self,
+        flags: &Flags,
+        frames: &Frames,
+        at: usize,
+    ) -> Result<(), SceneError> {
         let mut claims = Claims::default();
-        let first = frames
-            .files()
-            .first()
-            .map_or_else(String::new, |file| stem(file));
+        let first = stem(&super::start::file(frames, at));
         for file in frames.files() {
             claims.reads(file);
         }
-        let beside = [flags.from.file(&first), flags.mend.clone()];
+        let seeds = flags.seeds.as_ref().and_then(|seeds| seeds.file(&first));
+        let starts = flags.from.iter().map(|start| start.file(&first));
+        let beside: Vec<_> = starts.chain([seeds, flags.mend.clone()]).collect();
         beside.iter().flatten().for_each(|file| claims.reads(file));
         for (flag, path) in self.files(flags) {
             let again = flags.resume && matches!(flag, "--out" | "--measure" | "--events");

@@ -4,15 +4,15 @@ use std::fmt;
 use std::path::PathBuf;
 
 use ::track::Outline;
-use io::frames::{Frame, Frames};
-use io::tracks::{TableFrames, TrackContext, TrackFormat, TrackWriter, Tracked};
-use io::{Picture, PictureReading, is_standard};
+use io::frames::Frames;
+use io::tracks::{TrackContext, TrackFormat, TrackWriter, Tracked};
+use io::{Picture, is_standard};
 use scene::SceneError;
 
 use super::film::Seen as FilmSeen;
 use super::flags::Flags;
 use super::plan::Plan;
-use super::tables::{EVENTS, MEASURES, event_row, former, measures, row};
+use super::tables::{EVENTS, MEASURES, event_row, measures, row};
 use super::values::Values;
 use super::ways::Ways;
 use crate::output::{goes_nowhere, put_bytes};
@@ -50,7 +50,6 @@ impl fmt::Display for Happened {
 pub(super) struct Sinks<'a> {
     flags: &'a Flags,
     writer: TrackWriter,
-    out: PathBuf,
     film: Option<FilmSeen>,
     measures: String,
     events: String,
@@ -62,13 +61,12 @@ pub(super) struct Sinks<'a> {
 }
 
 impl<'a> Sinks<'a> {
-    /// Begin all files; frames before `from` are there already.
+    /// Begin all files.
     pub(super) fn begin(
         flags: &'a Flags,
         plan: &Plan,
         frames: &Frames,
         picture: &Picture,
-        from: usize,
     ) -> Result<Self, SceneError> {
         let name = frames
             .files()
@@ -86,7 +84,7 @@ impl<'a> Sinks<'a> {
             _ => None,
         };
         let writer = if flags.resume && plan.format == TrackFormat::Csv {
-            TrackWriter::resume(plan.out(), from)?
+            TrackWriter::resume(plan.out())?
         } else {
             TrackWriter::begin(plan.out(), plan.format, &context)?
         };
@@ -95,17 +93,12 @@ impl<'a> Sinks<'a> {
                 "note: standard output is closed or /dev/null: the outlines are kept nowhere",
             );
         }
-        let kept = |path: &Option<PathBuf>, heading: &str| match path {
-            Some(path) if flags.resume && from > 0 => former(path, heading, from),
-            _ => Ok(format!("{heading}\n")),
-        };
         Ok(Self {
             flags,
             writer,
-            out: plan.out().to_owned(),
             film,
-            measures: kept(&flags.measure, MEASURES)?,
-            events: kept(&flags.events, EVENTS)?,
+            measures: format!("{MEASURES}\n"),
+            events: format!("{EVENTS}\n"),
             measured: flags.measure.is_some()
                 || matches!(plan.format, TrackFormat::GeoJson | TrackFormat::ImageJ),
             values: None,
@@ -114,45 +107,20 @@ impl<'a> Sinks<'a> {
         })
     }
 
+    /// Whether a former run has gone farther.
+    pub(super) const fn is_behind(&self) -> bool {
+        self.writer.is_behind()
+    }
+
     /// Begin what is drawn in the end; the kymograph is of this object if no other is asked for.
-    pub(super) fn charts(&mut self, id: u32, from: usize) {
+    pub(super) fn charts(&mut self, id: u32, first: usize) {
         let id = self.flags.object.unwrap_or(id);
         self.values = self
             .flags
             .kymograph
             .as_ref()
-            .map(|_| (id, Values::new(self.flags.of, id, from)));
+            .map(|_| (id, Values::new(self.flags.of, id, first)));
         self.ways = self.flags.trajectories.as_ref().map(|_| Ways::default());
-    }
-
-    /// Show the frames that a former run has followed, in the film.
-    pub(super) fn replay(
-        &mut self,
-        inputs: &[PathBuf],
-        reading: &PictureReading,
-        until: usize,
-    ) -> Result<(), SceneError> {
-        if self.film.is_none() && self.ways.is_none() {
-            return Ok(());
-        }
-        let mut rows = TableFrames::growing(&self.out)?.peekable();
-        for frame in Frames::open(inputs, reading)?.take(until) {
-            let picture = match frame.frame {
-                Frame::Picture(picture) => Some(picture),
-                Frame::Broken(_) => None,
-            };
-            let mut outlines = Vec::new();
-            while let Some(next) =
-                rows.next_if(|next| next.as_ref().is_ok_and(|(at, _)| *at <= frame.index))
-            {
-                let (at, list) = next?;
-                if at == frame.index {
-                    outlines = list;
-                }
-            }
-            self.draw(frame.index, picture.as_deref(), &outlines)?;
-        }
-        Ok(())
     }
 
     fn draw(
@@ -201,28 +169,44 @@ impl<'a> Sinks<'a> {
         self.draw(frame, picture, &list)
     }
 
-    /// Finish all; what people should know of it.
+    /// Whether pictures of frames are drawn or measured.
+    pub(super) const fn needs_pictures(&self) -> bool {
+        self.film.is_some() || self.values.is_some() || self.ways.is_some()
+    }
+
+    /// Leave all files as they were.
+    pub(super) fn discard(self) -> Result<(), SceneError> {
+        Ok(self.writer.discard()?)
+    }
+
+    /// Finish all, each as far as it can be; what people should know of it, or the first thing that went wrong.
     pub(super) fn end(self) -> Result<Vec<String>, SceneError> {
-        let notes = self.writer.end()?;
-        for (path, text) in [
-            (&self.flags.measure, &self.measures),
-            (&self.flags.events, &self.events),
-        ] {
-            match path {
-                Some(path) if is_standard(path) => put_bytes(text.as_bytes())?,
-                Some(path) => io::write_whole(path, text.as_bytes())?,
-                None => {}
-            }
+        if self.is_behind() {
+            // a refusal, and tables of a former run have more rows
+            return Ok(self.writer.end()?);
         }
-        if let (Some((_, values)), Some(path)) = (self.values, &self.flags.kymograph) {
-            values.write(path)?;
+        let flags = self.flags;
+        let notes = self.writer.end().map_err(SceneError::from);
+        let table = |path: &Option<PathBuf>, text: &str| match path {
+            Some(path) if is_standard(path) => put_bytes(text.as_bytes()),
+            Some(path) => Ok(io::write_whole(path, text.as_bytes())?),
+            None => Ok(()),
+        };
+        let mut all = vec![
+            table(&flags.measure, &self.measures),
+            table(&flags.events, &self.events),
+        ];
+        if let (Some((_, values)), Some(path)) = (self.values, &flags.kymograph) {
+            all.push(values.write(path));
         }
-        if let (Some(ways), Some(path)) = (self.ways, &self.flags.trajectories) {
-            ways.write(path)?;
+        if let (Some(ways), Some(path)) = (self.ways, &flags.trajectories) {
+            all.push(ways.write(path));
         }
         if let Some(film) = self.film {
-            film.end()?;
+            all.push(film.end());
         }
+        let notes = notes?;
+        all.into_iter().collect::<Result<(), SceneError>>()?;
         Ok(notes)
     }
 }

@@ -1,21 +1,15 @@
 //! Tables of a track: a row for each object in each frame, a row for each thing that happened.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use io::tracks::Tracked;
-use scene::SceneError;
 use score::{Measures, curvature_extremes};
 
 use super::sinks::{Happened, Seen};
-use crate::commands::key;
 use crate::fit::{plain, quoted};
 
 /// σ over which curvature is smoothed. Pixels.
 const CURVATURE: f64 = 3.0;
-
-/// Bytes of a table of a former run.
-const MOST_TABLE: u64 = 1 << 32;
 
 /// What is measured of an outline, in the order of the columns.
 const NAMES: [&str; 16] = [
@@ -124,34 +118,6 @@ pub(super) fn event_row(one: &Happened) -> String {
         others.join(" "),
         plain(one.confidence)
     )
-}
-
-/// The rows of a former run before a frame, under their heading.
-pub(super) fn former(path: &Path, heading: &str, from: usize) -> Result<String, SceneError> {
-    let mut text = format!("{heading}\n");
-    if io::is_standard(path) || !path.exists() {
-        return Ok(text);
-    }
-    let old = io::read_text(path, "a table of a former run", MOST_TABLE)?;
-    let mut lines = old.lines();
-    if lines.next() != Some(heading) {
-        let message = format!(
-            "{} has other columns than this version writes; needed: another name",
-            path.display()
-        );
-        return Err(key("--resume", message));
-    }
-    for line in lines {
-        let frame = line
-            .split(',')
-            .next()
-            .and_then(|frame| frame.parse::<usize>().ok());
-        if frame.is_some_and(|frame| frame < from) {
-            text.push_str(line);
-            text.push('\n');
-        }
-    }
-    Ok(text)
 }
 
 #[cfg(test)]

@@ -18,6 +18,7 @@ mod mixed;
 mod names;
 mod order;
 mod pages;
+mod seek;
 mod video;
 
 use std::path::{Path, PathBuf};
@@ -83,7 +84,9 @@ enum Source {
 #[derive(Debug)]
 pub struct Frames {
     reading: PictureReading,
-    sources: std::collections::VecDeque<Source>,
+    sources: Vec<Source>,
+    /// The source that is read.
+    current: usize,
     files: Vec<PathBuf>,
     total: Option<usize>,
     next: usize,
@@ -107,7 +110,8 @@ impl Frames {
         let listing = listing::listing(inputs)?;
         let mut all = Self {
             reading: reading.clone(),
-            sources: std::collections::VecDeque::new(),
+            sources: Vec::new(),
+            current: 0,
             files: listing.files,
             total: Some(0),
             next: 0,
@@ -174,7 +178,7 @@ impl Frames {
     }
 
     fn add(&mut self, source: Source, count: Option<usize>) {
-        self.sources.push_back(source);
+        self.sources.push(source);
         self.total = self.total.zip(count).map(|(a, b)| a + b);
     }
 
@@ -214,16 +218,14 @@ impl Frames {
     pub fn pass(&mut self, count: usize) {
         let mut left = count;
         while left > 0 {
-            let Some(source) = self.sources.front_mut() else {
+            let Some(source) = self.sources.get_mut(self.current) else {
                 return;
             };
             match source {
-                Source::File(_) => {
-                    self.sources.pop_front();
-                }
+                Source::File(_) => self.current += 1,
                 Source::Pages(pages, page) if *page < pages.count() => *page += 1,
                 Source::Pages(..) => {
-                    self.sources.pop_front();
+                    self.current += 1;
                     continue;
                 }
                 Source::Video(_) | Source::Stream(..) => {
@@ -240,12 +242,12 @@ impl Frames {
     /// The next frame as it is, and what it is called.
     fn read(&mut self) -> Option<(String, Result<Picture, String>)> {
         loop {
-            match self.sources.front_mut()? {
+            match self.sources.get_mut(self.current)? {
                 Source::File(path) => {
                     let name = listing::name_of(path);
                     let read = Picture::load_as(path, &self.reading)
                         .map_err(|error| without(&error, path));
-                    self.sources.pop_front();
+                    self.current += 1;
                     return Some((name, read));
                 }
                 Source::Pages(pages, page) if *page < pages.count() => {
@@ -256,9 +258,9 @@ impl Frames {
                 Source::Video(path) => {
                     let (name, path) = (listing::name_of(path), path.clone());
                     match Stream::video(&path) {
-                        Ok(stream) => self.sources[0] = Source::Stream(stream, 0),
+                        Ok(stream) => self.sources[self.current] = Source::Stream(stream, 0),
                         Err(error) => {
-                            self.sources.pop_front();
+                            self.current += 1;
                             return Some((name, Err(without(&error, &path))));
                         }
                     }
@@ -270,10 +272,10 @@ impl Frames {
                         return Some((format!("{name} frame {count}"), read));
                     }
                     self.notes.extend(stream.take_note());
-                    self.sources.pop_front();
+                    self.current += 1;
                 }
                 Source::Pages(..) => {
-                    self.sources.pop_front();
+                    self.current += 1;
                 }
             }
         }

@@ -337,3 +337,41 @@ fn pages_that_are_channels_or_have_no_heads_are_told() {
             .contains("holds 900 pages behind one head")
     );
 }
+
+#[test]
+fn files_and_pages_are_read_in_any_order_and_a_stream_is_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    for k in [1_u8, 2, 4] {
+        std::fs::write(path(&format!("f{k}.pgm")), grey(10 * k, 3)).unwrap();
+    }
+    let mut frames = open(&[folder.path().to_owned()]).unwrap();
+    for (index, wanted, missing) in [(2, 40.0, 1), (0, 10.0, 0), (1, 20.0, 0), (1, 20.0, 0)] {
+        assert!(frames.seek(index));
+        let one = frames.next().unwrap();
+        assert_eq!(
+            (one.index, level(&one.frame).round(), one.missing),
+            (index, wanted, missing)
+        );
+    }
+    assert_eq!(frames.next().map(|one| one.index), Some(2));
+    assert!(frames.seek(3) && frames.next().is_none());
+    let places = ["1", "f4.pgm", "3", "f3.pgm"].map(|text| frames.place_of(text));
+    assert_eq!(places, [Some(1), Some(2), None, None]);
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut encoder = TiffEncoder::new(&mut bytes).unwrap();
+    for level in [50_u8, 60, 70] {
+        encoder
+            .write_image::<colortype::Gray8>(3, 1, &[level; 3])
+            .unwrap();
+    }
+    std::fs::write(path("s.tif"), bytes.into_inner()).unwrap();
+    let mut pages = open(&[path("s.tif")]).unwrap();
+    for index in [2, 0, 1] {
+        assert!(pages.seek(index));
+        let one = pages.next().unwrap();
+        assert_eq!(level(&one.frame).round(), 50.0 + 10.0 * index as f64);
+    }
+    let stream = open(&[PathBuf::from("-")]);
+    assert!(stream.is_ok_and(|mut stream| !stream.is_seekable() && !stream.seek(1)));
+}

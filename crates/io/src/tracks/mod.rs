@@ -19,6 +19,7 @@ mod coco;
 mod ctc;
 mod ctc_folder;
 mod features;
+mod growing;
 mod rois;
 mod table;
 mod writer;

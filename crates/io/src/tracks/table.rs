@@ -1,164 +1,18 @@
-//! Tracks as a table `frame,id,x,y`, written as it grows and read frame by frame.
+//! Tracks from a table `frame,id,x,y`, read frame by frame.
 
-use std::fmt::Write as _;
-use std::fs::{File, OpenOptions};
-use std::io::{BufRead, BufReader, Read as _, Write as _};
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read as _};
 use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
 use super::Tracked;
+use crate::IoError;
 use crate::limits::{FARTHEST, MOST_POINTS};
 use crate::shapes::Separator;
-use crate::write::{Whole, is_stream, unwritable};
-use crate::{IoError, is_standard};
-
-/// The first line.
-const HEADING: &str = "frame,id,x,y\n";
 
 /// Bytes that a line may have.
 const MOST_LINE: usize = 1 << 12;
-
-/// A table that grows.
-#[derive(Debug)]
-pub(super) struct Table {
-    path: PathBuf,
-    place: Place,
-}
-
-#[derive(Debug)]
-enum Place {
-    /// To standard output, a pipe or a device.
-    Stream(Box<Whole>),
-    /// Into a file that has its name at the end.
-    Part(File, PathBuf),
-}
-
-/// What a table is called as long as it grows.
-fn part_of(path: &Path) -> PathBuf {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".part");
-    path.with_file_name(name)
-}
-
-impl Table {
-    pub(super) fn begin(path: &Path) -> Result<Self, IoError> {
-        let mut table = Self::opened(path, false)?;
-        table.put(HEADING.as_bytes())?;
-        Ok(table)
-    }
-
-    /// The table with nothing in it.
-    fn opened(path: &Path, again: bool) -> Result<Self, IoError> {
-        let (path, refuse) = (path.to_owned(), |error| unwritable(path, error));
-        if is_standard(&path) || is_stream(&path) {
-            let place = Place::Stream(Box::new(Whole::begin(&path)?));
-            return Ok(Self { path, place });
-        }
-        crate::ready_file(&path)?;
-        let target = crate::write::followed(&path).map_err(refuse)?;
-        let part = part_of(&target);
-        if part.symlink_metadata().is_ok() && !again {
-            let message = format!(
-                "a former run has left {}; needed: go on with it (--resume), or remove it",
-                part.display()
-            );
-            return Err(IoError::file(&path, message));
-        }
-        let file = OpenOptions::new()
-            .create_new(true)
-            .write(true)
-            .open(&part)
-            .map_err(refuse)?;
-        Ok(Self {
-            path,
-            place: Place::Part(file, part),
-        })
-    }
-
-    pub(super) fn resume(path: &Path, from: usize) -> Result<Self, IoError> {
-        if is_standard(path) || is_stream(path) {
-            return Err(IoError::file(
-                path,
-                "only a file can be gone on with; the name of one is needed",
-            ));
-        }
-        let refuse = |error| unwritable(path, error);
-        let target = crate::write::followed(path).map_err(refuse)?;
-        let part = part_of(&target);
-        let old = if part.is_file() {
-            part.clone()
-        } else {
-            target.clone()
-        };
-        // the rows are kept in a file of their own first, so that an end on the way loses nothing
-        let mut kept = Whole::begin(&part)?;
-        kept.write_all(HEADING.as_bytes()).map_err(refuse)?;
-        if old.is_file() && from > 0 {
-            for rows in TableFrames::open(&old)? {
-                let (frame, tracked) = rows?;
-                if frame >= from {
-                    break;
-                }
-                let all: Vec<&Tracked> = tracked.iter().collect();
-                kept.write_all(rows_of(frame, &all).as_bytes())
-                    .map_err(refuse)?;
-            }
-        }
-        crate::ready_file(path)?;
-        kept.end()?;
-        let file = OpenOptions::new()
-            .append(true)
-            .open(&part)
-            .map_err(refuse)?;
-        Ok(Self {
-            path: path.to_owned(),
-            place: Place::Part(file, part),
-        })
-    }
-
-    fn put(&mut self, bytes: &[u8]) -> Result<(), IoError> {
-        let written = match &mut self.place {
-            Place::Stream(stream) => match stream.write_all(bytes).and_then(|()| stream.flush()) {
-                // a reader that has gone away has what it wanted
-                Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-                other => other,
-            },
-            Place::Part(file, _) => file.write_all(bytes),
-        };
-        written.map_err(|error| unwritable(&self.path, error))
-    }
-
-    pub(super) fn frame(&mut self, frame: usize, tracked: &[&Tracked]) -> Result<(), IoError> {
-        self.put(rows_of(frame, tracked).as_bytes())
-    }
-
-    pub(super) fn end(self) -> Result<(), IoError> {
-        let (file, part) = match self.place {
-            Place::Stream(stream) => return stream.end(),
-            Place::Part(file, part) => (file, part),
-        };
-        let refuse = |error| unwritable(&self.path, error);
-        drop(file);
-        // as any other result: what is there keeps its permissions, and links are followed
-        let mut whole = Whole::begin(&self.path)?;
-        let mut rows = File::open(&part).map_err(refuse)?;
-        std::io::copy(&mut rows, &mut whole).map_err(refuse)?;
-        whole.end()?;
-        std::fs::remove_file(&part).map_err(refuse)
-    }
-}
-
-fn rows_of(frame: usize, tracked: &[&Tracked]) -> String {
-    let mut text = String::new();
-    for one in tracked {
-        for p in &one.points {
-            // writing to a String cannot fail
-            let _ = writeln!(text, "{frame},{},{},{}", one.id, p.x, p.y);
-        }
-    }
-    text
-}
 
 /// The outlines of a table, frame by frame; no more than one frame is in memory.
 ///
@@ -355,45 +209,5 @@ impl Iterator for TableFrames {
         let read = self.read().transpose();
         self.over = !matches!(read, Some(Ok(_)));
         read
-    }
-}
-
-impl TableFrames {
-    /// Open a table, or what there is of it as long as it grows.
-    ///
-    /// # Errors
-    ///
-    /// A file that cannot be read.
-    pub fn growing(path: &Path) -> Result<Self, IoError> {
-        let target = crate::write::followed(path).map_err(|error| unwritable(path, error))?;
-        let part = part_of(&target);
-        Self::open(if part.is_file() { &part } else { &target })
-    }
-
-    /// The frame to go on with: the last of the table `path`, or of what a run that was ended has left of it, and
-    /// its outlines. Such a rest may lack some of its last frame, which then is not counted. None where nothing is
-    /// there, or no whole frame.
-    ///
-    /// # Errors
-    ///
-    /// A table that cannot be read.
-    pub fn last(path: &Path) -> Result<Option<(usize, Vec<Tracked>)>, IoError> {
-        let target = crate::write::followed(path).map_err(|error| unwritable(path, error))?;
-        let part = part_of(&target);
-        let cut = part.is_file();
-        let old = if cut { part } else { target };
-        if !old.is_file() {
-            return Ok(None);
-        }
-        let (mut before, mut last) = (None, None);
-        for rows in Self::open(&old)? {
-            match rows {
-                Ok(rows) => before = last.replace(rows),
-                // its last line may be half a one
-                Err(_) if cut => break,
-                Err(error) => return Err(error),
-            }
-        }
-        Ok(if cut { before } else { last })
     }
 }

@@ -7,8 +7,8 @@ use super::boxes::Boxes;
 use super::coco::Video;
 use super::ctc::Folder;
 use super::features::Features;
+use super::growing::Table;
 use super::rois::Rois;
-use super::table::Table;
 use super::{TrackContext, TrackFormat, Tracked};
 use crate::IoError;
 use crate::limits::{FARTHEST, MOST_NODES, MOST_WHOLE};
@@ -89,19 +89,29 @@ impl TrackWriter {
         })
     }
 
-    /// Go on with a table, of which the rows of the frames before `from` are kept: those of `NAME.part`, or else of
-    /// the table itself.
+    /// Go on with a table, with `NAME.part` or else the table itself, or begin one where neither is there. All frames
+    /// are given again, from the first: what is there already is compared and not written, and what comes behind it is.
+    /// A last line of `NAME.part` that is not whole is written anew. Until then, nothing is changed.
     ///
     /// # Errors
     ///
-    /// As [`TrackWriter::begin`]; rows that cannot be read.
-    pub fn resume(path: &Path, from: usize) -> Result<Self, IoError> {
-        let kind = Kind::Table(Table::resume(path, from)?);
+    /// As [`TrackWriter::begin`]; a heading that is another.
+    pub fn resume(path: &Path) -> Result<Self, IoError> {
+        let kind = Kind::Table(Table::resume(path)?);
         Ok(Self {
             path: path.to_owned(),
-            next: from,
+            next: 0,
             kind,
         })
+    }
+
+    /// Whether there are frames of a former run that have not been given again.
+    #[must_use]
+    pub const fn is_behind(&self) -> bool {
+        match &self.kind {
+            Kind::Table(table) => table.is_behind(),
+            _ => false,
+        }
     }
 
     /// Write the outlines of a frame of that name; those without points are left out.
@@ -109,7 +119,8 @@ impl TrackWriter {
     /// # Errors
     ///
     /// A frame that is not behind the one before; an object twice, or with the number 0; an outline of one or two
-    /// points, of too many, or with a point that is not finite or too far; a confidence that is none; a full disk.
+    /// points, of too many, or with a point that is not finite or too far; a confidence that is none; a full disk (of a table,
+    /// the frames before are kept); in a table that is gone on with, rows that are others than those there.
     pub fn frame(&mut self, frame: usize, name: &str, tracked: &[Tracked]) -> Result<(), IoError> {
         let refuse = |what: String| IoError::file(&self.path, format!("frame {frame}: {what}"));
         if frame < self.next {
@@ -147,7 +158,7 @@ impl TrackWriter {
     ///
     /// # Errors
     ///
-    /// A full disk, or a place that can no longer be written.
+    /// A full disk, or a place that can no longer be written; a former run that went on farther.
     pub fn end(self) -> Result<Vec<String>, IoError> {
         match self.kind {
             Kind::Table(table) => table.end().map(|()| Vec::new()),
@@ -156,6 +167,19 @@ impl TrackWriter {
             Kind::Folder(folder) => folder.end(),
             Kind::Rois(rois) => rois.end().map(|()| Vec::new()),
             Kind::Boxes(boxes) => boxes.end().map(|()| Vec::new()),
+        }
+    }
+
+    /// Leave nothing of what was begun; what a former run has left stays.
+    ///
+    /// # Errors
+    ///
+    /// A part of a table that cannot be removed.
+    pub fn discard(self) -> Result<(), IoError> {
+        match self.kind {
+            Kind::Table(table) => table.discard(),
+            // those stand beside their names until their ends
+            _ => Ok(()),
         }
     }
 }

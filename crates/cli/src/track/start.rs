@@ -1,0 +1,109 @@
+//! What is followed: the outlines of the first frame, or of another.
+
+use std::path::PathBuf;
+
+use ::track::{Options, Start};
+use io::Picture;
+use io::frames::Frames;
+use io::shapes::{Reading, Shape};
+use scene::SceneError;
+use scene::fit::Contour;
+
+use super::flags::{Flags, Taken};
+use super::numbers::Numbers;
+use crate::args::Words;
+use crate::commands::key;
+use crate::fit::{counted, stem, typed};
+
+/// The frame that the start is in.
+pub(super) fn place(flags: &Flags, frames: &Frames) -> Result<usize, SceneError> {
+    let Some(text) = &flags.at else { return Ok(0) };
+    frames.place_of(text).ok_or_else(|| {
+        let needed = match frames.total() {
+            Some(total) => format!("a number from 0 to {}", total.saturating_sub(1)),
+            None => "a number from 0".to_owned(),
+        };
+        let message = format!(
+            "must be {needed} or the name of a file of the sequence, got {}",
+            io::text::clip(text)
+        );
+        key("--at", message)
+    })
+}
+
+/// The file of a frame: its own, or the one that all are in.
+pub(super) fn file(frames: &Frames, at: usize) -> PathBuf {
+    let files = frames.files();
+    let own = (frames.total() == Some(files.len())).then(|| files.get(at));
+    own.flatten()
+        .or_else(|| files.first())
+        .cloned()
+        .unwrap_or_default()
+}
+
+/// The outlines to begin with, and the numbers that they have.
+pub(super) fn starts(
+    flags: &Flags,
+    frames: &Frames,
+    at: usize,
+    picture: &Picture,
+    words: Words,
+) -> Result<(Vec<Contour>, Numbers), SceneError> {
+    let file = file(frames, at);
+    let reading = Reading {
+        beside: file
+            .file_name()
+            .map(|name| name.to_string_lossy().into_owned()),
+        size: Some(picture.size()),
+        ..typed(&flags.columns, flags.origin)?
+    };
+    let mut shapes: Vec<Shape> = Vec::new();
+    if let Some(seeds) = &flags.seeds {
+        let (objects, seeds) = seeds.objects(picture, &reading, &stem(&file))?;
+        let found = objects.len();
+        shapes.extend(objects.into_iter().map(|object| {
+            let mut shape = Shape::curve(object.outline, Some(true));
+            shape.id = seeds.get(object.seed).and_then(|seed| seed.id.clone());
+            shape
+        }));
+        if shapes.is_empty() {
+            return Err(key(
+                "--seeds",
+                "no object is found in the frame; needed: --from",
+            ));
+        }
+        words.say(&format!("{} found to follow", counted(found, "object")));
+    }
+    for start in &flags.from {
+        let (own, notes) = start.outlines(&reading, &stem(&file))?;
+        for note in notes {
+            words.say(&format!("note: {note}"));
+        }
+        shapes.extend(own);
+    }
+    let numbers = Numbers::of(&shapes);
+    let contour = |shape: &Shape| Contour {
+        points: shape.first().to_vec(),
+        closed: shape.closed.unwrap_or(true),
+    };
+    Ok((shapes.iter().map(contour).collect(), numbers))
+}
+
+/// How they are followed.
+pub(super) fn options(flags: &Flags) -> Options {
+    let start = match flags.start {
+        // outlines that were found are not found again
+        Taken::Auto if flags.seeds.is_some() => Start::Exact,
+        Taken::Auto => Start::Chosen,
+        Taken::Exact => Start::Exact,
+        Taken::Rough => Start::Rough,
+    };
+    let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    Options {
+        start,
+        patience: flags.patience,
+        births: flags.births,
+        threads: flags.jobs.unwrap_or_else(cores).max(1),
+        ..Options::default()
+    }
+}
