@@ -1,9 +1,14 @@
 //! `snake track --resume`: the same bytes as without an end on the way, and what is refused.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a test: small whole numbers"
+)]
 
 mod common;
 
-use common::moving::{START, frames};
+use common::moving::{START, disc, frames};
 use common::{Answer, Folder};
 
 /// All that is written.
@@ -94,11 +99,15 @@ fn what_is_not_the_same_is_refused_and_stays() {
 fn an_error_on_the_way_keeps_what_was_followed() {
     let folder = frames(6);
     folder.write("mend.csv", "frame,id,x,y\n4,7,1,1\n4,7,5,1\n4,7,5,5\n");
-    let answer = run(&folder, &["--mend", "mend.csv"]);
+    let says = "--mend: frame 4, object 7: no such object";
+    let bytes: Vec<u8> = (0..6).flat_map(disc).collect();
+    let stream = |more: &[&str]| {
+        folder.snake_reading(&[&["track", "-"][..], &START, &ALL, more].concat(), &bytes)
+    };
+    let answer = stream(&["--mend", "mend.csv"]);
     assert_eq!(answer.code, Some(2), "{answer:?}");
     assert!(
-        answer.err.contains("what there was by then is written")
-            && answer.err.contains("--mend: frame 4, object 7: no such"),
+        answer.err.contains("what there was by then is written") && answer.err.contains(says),
         "{answer:?}"
     );
     let kept = results(&folder);
@@ -108,8 +117,18 @@ fn an_error_on_the_way_keeps_what_was_followed() {
         "{table}"
     );
     assert_eq!(kept[1].split(|b| *b == b'\n').count(), 6);
-    assert_eq!(run(&folder, &["--resume"]).code, Some(0));
+    assert_eq!(stream(&["--resume"]).code, Some(0));
     let resumed = results(&folder);
-    assert_eq!(run(&folder, &[]).code, Some(0));
+    assert_eq!(stream(&[]).code, Some(0));
     assert!(results(&folder) == resumed);
+    // where frames are followed before anything is written, nothing is changed
+    folder.refused(
+        &[
+            &["track", "in", "-q", "--mend", "mend.csv"][..],
+            &START,
+            &ALL,
+        ]
+        .concat(),
+        &[says],
+    );
 }

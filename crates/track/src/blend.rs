@@ -22,6 +22,9 @@ const NEAR_RADII: f64 = 0.05;
 /// What counts, in all frames together: missing confidence, against steps of the share, whose squares sum to 1 at least.
 const TRUST: f64 = 2.0;
 
+/// Of shares that cost the same, those nearer to time are taken.
+const TIME: f64 = 0.01;
+
 /// Where nothing is to be had.
 const NEVER: f64 = 1e12;
 
@@ -41,13 +44,11 @@ pub fn blended(onward: &[Option<Outline>], back: &[Option<Outline>]) -> Vec<Opti
         .collect();
     let costs: Vec<[f64; PARTS + 1]> = (0..both.len())
         .map(|at| {
-            let ends = (at == 0, at + 1 == both.len());
             costs(
                 onward[at].as_ref(),
                 back[at].as_ref(),
                 both[at].as_ref(),
-                ends,
-                both.len(),
+                (at, both.len()),
             )
         })
         .collect();
@@ -68,16 +69,18 @@ fn costs(
     onward: Option<&Outline>,
     back: Option<&Outline>,
     pair: Option<&Pair>,
-    (first, last): (bool, bool),
-    frames: usize,
+    (at, frames): (usize, usize),
 ) -> [f64; PARTS + 1] {
     let lack =
         |outline: Option<&Outline>| outline.map_or(1.0, |one| 1.0 - one.confidence.clamp(0.0, 1.0));
-    let trust = TRUST / frames as f64;
+    let (first, last) = (at == 0, at + 1 == frames);
+    let (trust, time) = (TRUST / frames as f64, TIME / frames as f64);
+    let now = at as f64 / (frames.max(2) - 1) as f64;
     let mut all = [0.0; PARTS + 1];
     for (part, cost) in all.iter_mut().enumerate() {
         let share = part as f64 / PARTS as f64;
-        *cost = trust * ((1.0 - share) * lack(onward) + share * lack(back));
+        *cost = trust * ((1.0 - share) * lack(onward) + share * lack(back))
+            + time * (share - now).powi(2);
         let never = match (onward, back) {
             (Some(_), None) => part > 0,
             (None, Some(_)) => part < PARTS,

@@ -207,10 +207,3 @@ pub(super) fn retold(told: &mut [Told]) {
         now.events = events;
     }
 }
-
-/// What is given before the start, and from there on.
-pub(super) fn sides(facts: Facts, start: usize) -> (Facts, Facts) {
-    let mut before = facts;
-    let ahead = before.split_off(&start);
-    (before, ahead)
-}

@@ -17,7 +17,7 @@ mod ways;
 
 use std::sync::Arc;
 
-use ::track::Options;
+use ::track::{Happening, Options};
 use indicatif::ProgressBar;
 use io::frames::{Frame, Frames, Numbered};
 use io::tracks::TableFrames;
@@ -111,6 +111,7 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
         stop: &stop,
         bar: &bar,
         words,
+        is_begun: false,
     };
     let before = if seekable && at > 0 {
         let back = Options {
@@ -128,15 +129,17 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
         options: &options,
     };
     let followed = all.follow(&ways, &mut run, before, &mut facts);
+    let is_begun = all.is_begun;
     bar.finish_and_clear();
     notes(&mut frames, words);
     let stopped = stop.asked();
     let left = if stopped { frames.left() } else { Some(0) };
-    if matches!(followed, Ok(false)) {
-        sinks.discard()?;
-        words.say("stopped by Ctrl-C before anything was to be written: nothing is changed");
+    if is_begun {
+        end(sinks, followed, stopped, words)?;
     } else {
-        end(sinks, followed.map(|_| ()), stopped, words)?;
+        sinks.discard()?;
+        followed?;
+        words.say("stopped by Ctrl-C before anything was to be written: nothing is changed");
     }
     facts.append(&mut run.facts);
     if let (false, Some(frame)) = (stopped, facts.keys().next()) {
@@ -190,26 +193,34 @@ struct Whole<'a, 'b> {
     stop: &'a Stop,
     bar: &'a ProgressBar,
     words: Words,
+    /// Whether anything has been written.
+    is_begun: bool,
 }
 
 impl Whole<'_, '_> {
-    /// Follow all; whether anything is to be written of it. `before` goes from the start back to the first frame.
+    /// Follow all. `before` goes from the start back to the first frame. Of `facts` those are left that nothing was
+    /// done with.
     fn follow(
         &mut self,
         ways: &Ways<'_>,
         run: &mut Run,
         before: Option<Run>,
         facts: &mut Facts,
-    ) -> Result<bool, SceneError> {
+    ) -> Result<(), SceneError> {
         let seekable = self.frames.is_seekable();
-        let (ahead_only, mut behind) = (std::mem::take(facts), before);
-        let (earlier, later) = between::sides(ahead_only, ways.at);
-        run.facts = later;
+        let mut behind = before;
+        let beyond = facts.split_off(&self.frames.total().unwrap_or(usize::MAX));
+        let mut earlier = std::mem::replace(facts, beyond);
+        run.facts = earlier.split_off(&ways.at);
         let farthest = run.facts.keys().next_back().copied();
         let farthest = farthest.filter(|&frame| seekable && frame > ways.at);
         match &mut behind {
-            Some(behind) => behind.facts = earlier,
-            None => facts.extend(earlier),
+            Some(behind) => {
+                let here = run.facts.get(&ways.at).cloned();
+                earlier.extend(here.map(|list| (ways.at, list)));
+                behind.facts = earlier;
+            }
+            None => facts.append(&mut earlier),
         }
         if !seekable && (ways.at > 0 || !run.facts.is_empty()) {
             self.words.say(
@@ -224,39 +235,43 @@ impl Whole<'_, '_> {
             let Some(mut way) =
                 between::outwards(self.frames, behind, first, 0, options, self.stop)?
             else {
-                return Ok(false);
+                return Ok(());
             };
             facts.append(&mut behind.facts);
             way.reverse();
             way.pop();
+            for event in way.iter_mut().map(|told| &mut told.events) {
+                // what ends on the way back begins; that is told by the outlines
+                event.retain(|one| matches!(one.what, Happening::Mended | Happening::Skipped));
+            }
             told.append(&mut way);
         }
         let Some(to) = farthest.or((ways.at > 0 && seekable).then_some(ways.at)) else {
             self.told(&first, Some(ways.picture))?;
-            return self.onwards(run).map(|()| true);
+            return self.onwards(run);
         };
         let Some(mut way) =
             between::outwards(self.frames, run, first, to, ways.options, self.stop)?
         else {
-            return Ok(false);
+            return Ok(());
         };
         told.append(&mut way);
         between::retold(&mut told);
         let next = told.last().map_or(0, |last| last.index + 1);
         for one in &told {
             if self.stop.asked() {
-                return Ok(true);
+                return Ok(());
             }
             let picture = if self.sinks.needs_pictures() && self.frames.seek(one.index) {
                 let frame = self.frames.next();
-                frame.and_then(|frame| between::picture_of(frame))
+                frame.and_then(between::picture_of)
             } else {
                 None
             };
             self.told(one, picture.as_ref())?;
         }
         self.frames.seek(next);
-        self.onwards(run).map(|()| true)
+        self.onwards(run)
     }
 
     /// Follow and tell all that comes.
@@ -274,6 +289,7 @@ impl Whole<'_, '_> {
 
     /// Write and tell a frame.
     fn told(&mut self, told: &Told, picture: Option<&Arc<Picture>>) -> Result<(), SceneError> {
+        self.is_begun = true;
         let behind = self.sinks.is_behind();
         let (course, sinks, words) = (&mut *self.course, &mut *self.sinks, self.words);
         let picture = picture.map(AsRef::as_ref);

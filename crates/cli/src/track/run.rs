@@ -29,6 +29,8 @@ pub(super) struct Run {
     back: bool,
     /// Whether objects may come by what is given.
     open: bool,
+    /// Objects that were seen in the last frame.
+    seen: BTreeSet<u32>,
     /// Frames that are missing between the last frame and the one before it.
     missing: u64,
 }
@@ -65,6 +67,7 @@ impl Run {
             facts: Facts::new(),
             back,
             open: false,
+            seen: BTreeSet::new(),
             missing: first.missing,
         })
     }
@@ -96,6 +99,7 @@ impl Run {
         let tracked = self.tracker.first().clone();
         let mut told = self.told(frame.index, &frame.name, tracked, None);
         self.given(&Image::of(Arc::<Picture>::clone(picture)), &mut told)?;
+        self.seen = seen(&told);
         Ok(told)
     }
 
@@ -131,6 +135,13 @@ impl Run {
             }
         };
         told.missing = missing;
+        if missing > 0 {
+            // what was seen before them was not hidden
+            let seen = &self.seen;
+            told.events
+                .retain(|event| event.what != Happening::Found || !seen.contains(&event.id));
+        }
+        self.seen = seen(&told);
         Ok((told, picture))
     }
 
@@ -224,6 +235,11 @@ impl Run {
             missing: 0,
         }
     }
+}
+
+fn seen(told: &Told) -> BTreeSet<u32> {
+    let seen = told.outlines.iter().filter(|one| one.state.is_seen());
+    seen.map(|one| one.id).collect()
 }
 
 /// Shares of the length of an outline, one for each node.

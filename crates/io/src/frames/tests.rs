@@ -370,7 +370,8 @@ fn files_and_pages_are_read_in_any_order_and_a_stream_is_not() {
     for index in [2, 0, 1] {
         assert!(pages.seek(index));
         let one = pages.next().unwrap();
-        assert_eq!(level(&one.frame).round(), 50.0 + 10.0 * index as f64);
+        let wanted = 50.0 + 10.0 * index as f64;
+        assert!((level(&one.frame) - wanted).abs() < 0.5);
     }
     let stream = open(&[PathBuf::from("-")]);
     assert!(stream.is_ok_and(|mut stream| !stream.is_seekable() && !stream.seek(1)));
