@@ -120,7 +120,7 @@ mod tests {
             .map(|i| DVec2::new(f64::from(i % 8) * 5.0, f64::from(i / 8) * 5.0))
             .collect();
         let stray = |i: usize, p: DVec2| {
-            if i % 3 == 0 {
+            if i.is_multiple_of(3) {
                 p + DVec2::new(30.0, 12.0)
             } else {
                 motion.at(p)
