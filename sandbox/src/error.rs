@@ -79,7 +79,7 @@ refusals!(
     elastic::ElasticError,
     field::FieldError,
     io::IoError,
-    scene::fit::FitError,
+    fit::FitError,
     integrator::Fault,
     integrator::SchemeError,
     outline::OutlineError,

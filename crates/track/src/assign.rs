@@ -9,7 +9,7 @@ use crate::contact;
 use crate::follow::Predicted;
 use crate::ring;
 use crate::tracker::Tracker;
-use crate::{Event, Happening, State};
+use crate::{Event, Happening, Prediction, State};
 
 /// Two outlines end on one object if they share so much of the smaller one, and were to share less than that before.
 const ONE: f64 = 0.5;
@@ -33,6 +33,24 @@ impl Tracker {
         followed: &mut [(Body, Step)],
     ) {
         let mut ended: Vec<Vec<DVec2>> = followed.iter().map(|(body, _)| body.outline()).collect();
+        // what was looked for elsewhere does not lie where another one is
+        for i in 0..followed.len() {
+            let searched = |at: usize| followed[at].1.prediction == Prediction::Searched;
+            let taken = searched(i)
+                && followed[i].1.state.is_seen()
+                && (0..followed.len()).any(|j| {
+                    let other = j != i && !searched(j) && followed[j].1.state.is_seen();
+                    other
+                        && contact::near(&ended[i], &ended[j])
+                        && contact::shared(&ended[i], &ended[j]) > MET
+                });
+            if taken {
+                let mut body = self.objects[i].body.clone();
+                let step = body.coast(Some(now.pixels), Prediction::Flown, 0.0);
+                ended[i] = body.outline();
+                followed[i] = (body, step);
+            }
+        }
         for i in 1..followed.len() {
             for j in 0..i {
                 let both = followed[i].1.state.is_seen() && followed[j].1.state.is_seen();

@@ -113,7 +113,7 @@ impl Edges {
                 } else {
                     0.0
                 };
-                let firm = strength(b as f32, half).powi(2);
+                let firm = strength(narrow(b), half).powi(2);
                 sums[i] = firm * (best as f64 - NEAR as f64 + share);
                 weights[i] = firm;
             }
@@ -202,6 +202,14 @@ fn directions(window: &Window, strips: &Strips<'_>) -> Vec<Color> {
     };
     let smooth = [channel(0), channel(1), channel(2)];
     (0..n)
-        .map(|i| unit(std::array::from_fn(|k| smooth[k][i] as f32)))
+        .map(|i| unit(std::array::from_fn(|k| narrow(smooth[k][i]))))
         .collect()
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "colors in f32 are enough"
+)]
+fn narrow(value: f64) -> f32 {
+    value as f32
 }

@@ -125,7 +125,7 @@ impl Body {
         let seen =
             best.quality.iter().filter(|q| **q > 0.5).count() as f64 / best.quality.len() as f64;
         let size = (ring::radius(&best.curve) / radius).powi(2);
-        let lost = (sure < UNSEEN && seen < NODES_SEEN) || size < SIZES[0] || size > SIZES[1];
+        let lost = (sure < UNSEEN && seen < NODES_SEEN) || !(SIZES[0]..=SIZES[1]).contains(&size);
         if lost || (self.left && sure < FOUND) {
             return self.coast(Some(frame.pixels), best.prediction, sure);
         }

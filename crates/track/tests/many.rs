@@ -248,7 +248,8 @@ fn what_was_not_there_is_born_once() {
         if t >= 4 {
             assert!(fits(tracked, 2, &circle(95.0, 40.0, 9.0)) > 0.93, "{t}");
         }
-        if t >= 14 {
+        // wholly in the frame from 13 on
+        if t >= 16 {
             let fit = fits(tracked, 3, &circle(enters(t), 70.0, 10.0));
             assert!(fit > 0.93, "{t}: {fit}");
         }

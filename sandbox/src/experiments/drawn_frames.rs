@@ -8,8 +8,11 @@ use snake::{Edit, ImageForce, Sampling, Until, World};
 
 use crate::prelude::*;
 
+/// What is changed in a scene.
+type Changed = &'static [(&'static str, &'static str)];
+
 /// Name, color, and what is changed in the scene of the turned oval.
-const BODIES: [(&str, &str, Color, &[(&str, &str)]); 3] = [
+const BODIES: [(&str, &str, Color, Changed); 3] = [
     ("turning", "of-turning", Color::GREEN, &[]),
     (
         "translating",
