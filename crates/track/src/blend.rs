@@ -19,7 +19,8 @@ const PARTS: usize = 32;
 const NEAR: f64 = 1.0;
 const NEAR_RADII: f64 = 0.05;
 
-/// What counts, in all frames together: missing confidence, against steps of the share, whose squares sum to 1 at least.
+/// What counts, in all frames together: missing confidence, against steps of the share, whose squares sum to 1 at
+/// least.
 const TRUST: f64 = 2.0;
 
 /// Of shares that cost the same, those nearer to time are taken.

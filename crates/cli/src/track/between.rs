@@ -186,7 +186,8 @@ pub(super) fn retold(told: &mut [Told]) {
                 (one.parent.is_none() && !born).then_some(Happening::Begun)
             } else {
                 match (was.is_some_and(State::is_seen), one.state.is_seen()) {
-                    (true, false) => Some(Happening::Hidden),
+                    // a frame that cannot be used is told as such
+                    (true, false) if now.broken.is_none() => Some(Happening::Hidden),
                     (false, true) => Some(Happening::Found),
                     _ => None,
                 }

@@ -25,10 +25,11 @@ pub(crate) struct Flags {
     /// program ffmpeg, where it is installed); `-` is standard input, of PGM or PPM pictures one behind the other.
     #[arg(required = true, value_name = "FRAME")]
     pub frames: Vec<PathBuf>,
-    /// Where the objects are in the first frame, or in that of --at; may be given several times: `circle:X,Y,RADIUS`, `box:LEFT,TOP,WIDTH,HEIGHT`,
-    /// `ellipse:X,Y,RX,RY[,DEGREES]`, `polygon:X,Y,X,Y,…` or `click:X,Y` in pixels, the first pixel's center at 0,0; or
-    /// a file of one or several outlines or points: CSV, GeoJSON, COCO, `ImageJ`, SVG, labelme, CVAT, a mask or labels.
-    /// `{stem}` in its name stands for the name of the first file without its ending.
+    /// Where the objects are in the first frame, or in that of --at; may be given several times:
+    /// `circle:X,Y,RADIUS`, `box:LEFT,TOP,WIDTH,HEIGHT`, `ellipse:X,Y,RX,RY[,DEGREES]`, `polygon:X,Y,X,Y,…` or
+    /// `click:X,Y` in pixels, the first pixel's center at 0,0; or a file of one or several outlines or points: CSV,
+    /// GeoJSON, COCO, `ImageJ`, SVG, labelme, CVAT, a mask or labels. `{stem}` in its name stands for the name of the
+    /// file of that frame without its ending.
     #[arg(long, short, value_name = "START", required_unless_present = "seeds")]
     pub from: Vec<Start>,
     /// Look for many objects: `auto` finds them, a file has points or outlines of half their size.

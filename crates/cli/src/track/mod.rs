@@ -164,8 +164,12 @@ fn end(
         return followed;
     }
     let kept = sinks.end();
-    if followed.is_err() && kept.is_ok() {
-        words.say("ended by an error: what there was by then is written");
+    if followed.is_err() {
+        words.say(if kept.is_ok() {
+            "ended by an error: what there was by then is written"
+        } else {
+            "ended by an error, and not all can be written: a table stays as NAME.part, and --resume goes on with it"
+        });
     }
     followed?;
     for note in kept? {

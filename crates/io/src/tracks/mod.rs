@@ -205,4 +205,6 @@ pub struct TrackContext {
 #[cfg(test)]
 mod ctc_tests;
 #[cfg(test)]
+mod growing_tests;
+#[cfg(test)]
 mod tests;

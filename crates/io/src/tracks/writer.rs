@@ -119,8 +119,8 @@ impl TrackWriter {
     /// # Errors
     ///
     /// A frame that is not behind the one before; an object twice, or with the number 0; an outline of one or two
-    /// points, of too many, or with a point that is not finite or too far; a confidence that is none; a full disk (of a table,
-    /// the frames before are kept); in a table that is gone on with, rows that are others than those there.
+    /// points, of too many, or with a point that is not finite or too far; a confidence that is none; a full disk (of a
+    /// table, the frames before are kept); in a table that is gone on with, rows that are others than those there.
     pub fn frame(&mut self, frame: usize, name: &str, tracked: &[Tracked]) -> Result<(), IoError> {
         let refuse = |what: String| IoError::file(&self.path, format!("frame {frame}: {what}"));
         if frame < self.next {
