@@ -59,6 +59,7 @@
 //! | every option with its unit and default | [`Options`] |
 //! | snakes that move, meet and are edited | [`snake`] |
 //! | schemes that move them | [`integrator`] |
+//! | an outline followed through frames | [`track`] |
 //! | force fields of images | [`field`] |
 //! | curves, their energies and measures | [`elastic`] |
 //! | crossings, merging, spacing | [`outline`] |
@@ -81,3 +82,5 @@ pub use io;
 pub use outline;
 pub use snake;
 pub use snake::{Outcome, Simulation};
+pub use track;
+pub use track::Tracker;
