@@ -1,10 +1,10 @@
 //! Where points of one frame are in the next.
 //!
 //! - **Flow.** Each point is followed by itself: the shift under which the square of pixels about it differs least, by
-//!   Newton's method from the coarsest of several halved pictures to the full one (\[lucas81\], \[bouguet00\]). A point is
-//!   followed back as well; how far it ends from where it began says how far to trust it.
-//! - **Similarity.** One translation, rotation and scale for all points, by least squares with weights that leave out what
-//!   moves otherwise (\[holland77\], Cauchy's weights).
+//!   Newton's method from the coarsest of several halved pictures to the full one (\[lucas81\], \[bouguet00\]). A
+//!   point is followed back as well; how far it ends from where it began says how far to trust it.
+//! - **Similarity.** One translation, rotation and scale for all points, by least squares with weights that leave out
+//!   what moves otherwise (\[holland77\], Cauchy's weights).
 //!
 //! Units: pixels, x to the right and y down, the first pixel's center at (0, 0). O(pixels) for a pyramid, O(points) for
 //! the rest.

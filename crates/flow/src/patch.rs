@@ -2,8 +2,8 @@
 
 use ndarray::Array2;
 
-/// The square of `side` × `side` samples about (x, y), at distances of one pixel, linear between pixels; beyond the border
-/// the last pixel is repeated.
+/// The square of `side` × `side` samples about (x, y), at distances of one pixel, linear between pixels; beyond the
+/// border the last pixel is repeated.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_possible_wrap,

@@ -12,8 +12,8 @@ pub struct Rules {
     pub side: usize,
     /// Rounds of Newton's method at each size of the picture.
     pub rounds: usize,
-    /// Least sum of squared slopes a pixel, along the direction in which it is least, that a square must have to be followed.
-    /// Squared levels a squared pixel.
+    /// Least sum of squared slopes a pixel, along the direction in which it is least, that a square must have to be
+    /// followed. Squared levels a squared pixel.
     pub least: f64,
     /// Most distance from its beginning at which a point may end that is followed there and back. Pixels.
     pub back: f64,

@@ -45,8 +45,8 @@ impl Similarity {
     }
 }
 
-/// The similarity that takes most of the points there, each with a weight of at least 0. Two points or fewer, or points all
-/// in one place, are moved without rotation and scale; None without a point of weight above 0.
+/// The similarity that takes most of the points there, each with a weight of at least 0. Two points or fewer, or
+/// points all in one place, are moved without rotation and scale; None without a point of weight above 0.
 #[must_use]
 pub fn similarity(from: &[DVec2], to: &[DVec2], weights: &[f64]) -> Option<Similarity> {
     let mut robust = vec![1.0; from.len()];

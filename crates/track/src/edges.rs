@@ -206,10 +206,7 @@ fn directions(window: &Window, strips: &Strips<'_>) -> Vec<Color> {
         .collect()
 }
 
-#[allow(
-    clippy::cast_possible_truncation,
-    reason = "colors in f32 are enough"
-)]
+#[allow(clippy::cast_possible_truncation, reason = "colors in f32 are enough")]
 fn narrow(value: f64) -> f32 {
     value as f32
 }

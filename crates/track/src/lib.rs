@@ -24,11 +24,11 @@
 //!
 //! In each frame an object is
 //!
-//! 1. **predicted**: where the picture's flow carries it and what it encloses, where it was, and where it flies to by its
-//!    own motion;
+//! 1. **predicted**: where the picture's flow carries it and what it encloses, where it was, and where it flies to by
+//!    its own motion;
 //! 2. **searched**, by its appearance, where no prediction is good enough;
-//! 3. **corrected**: the best closed chain of offsets along its normals, exactly, from what lies inside, outside and across
-//!    each node, as a similarity first, then in slow waves, then in full;
+//! 3. **corrected**: the best closed chain of offsets along its normals, exactly, from what lies inside, outside and
+//!    across each node, as a similarity first, then in slow waves, then in full;
 //! 4. **learnt**: its appearance, node by node, as far as it was seen; its motion; its rest shape.
 //!
 //! Where it is not seen it flies on, and says so.

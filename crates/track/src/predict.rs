@@ -47,8 +47,8 @@ pub enum Prediction {
     Plain,
 }
 
-/// How the motion of the object goes on: in the frame of the body, `z ↦ center + shift + turn · (z − center)`, and slow
-/// waves of deformation. Cells a frame.
+/// How the motion of the object goes on: in the frame of the body, `z ↦ center + shift + turn · (z − center)`,
+/// and slow waves of deformation. Cells a frame.
 #[derive(Debug, Clone)]
 pub(crate) struct Motion {
     pub turn: DVec2,

@@ -14,7 +14,7 @@ pub struct Outline {
     pub parent: Option<u32>,
     /// Its nodes, clockwise on the screen. They may lie outside the frame where the object does.
     pub points: Vec<DVec2>,
-    /// For each node the place on the first outline that it has come from, as a share of that outline's length, 0 … 1.
+    /// For each node the place on the first outline that it has come from, as a share of its length, 0 … 1.
     pub material: Vec<f64>,
     /// Standard error of each node along its normal, as estimated. Pixels.
     pub errors: Vec<f64>,

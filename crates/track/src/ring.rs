@@ -43,8 +43,8 @@ pub(crate) fn radius(curve: &[DVec2]) -> f64 {
     (elastic::signed_area(curve).abs() / std::f64::consts::PI).sqrt()
 }
 
-/// How far each node may go along its normal, inwards and outwards, until it is as near to another part of the curve: the
-/// radii of the largest disks that touch the curve there and hold no node.
+/// How far each node may go along its normal, inwards and outwards, until it is as near to another part of the curve:
+/// the radii of the largest disks that touch the curve there and hold no node.
 pub(crate) fn room(curve: &[DVec2], normals: &[DVec2]) -> Vec<[f64; 2]> {
     let n = curve.len();
     (0..n)
@@ -119,7 +119,8 @@ pub(crate) fn lowpass(values: &[DVec2], modes: usize) -> Vec<DVec2> {
     out
 }
 
-/// A curve without its shortest waves: each wave by (1 + stiff · w⁴)⁻¹, w = 2 sin(π k / N), to first order of `stiff`.
+/// A curve without its shortest waves: each wave by (1 + stiff · w⁴)⁻¹, w = 2 sin(π k / N), to first order of
+/// `stiff`.
 pub(crate) fn calmed(curve: &[DVec2], stiff: f64) -> Vec<DVec2> {
     let n = curve.len();
     let mut out = curve.to_vec();

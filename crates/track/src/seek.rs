@@ -21,7 +21,8 @@ const SHARE: f64 = 0.15;
 /// How many places are handed on.
 const MOST: usize = 3;
 
-/// Where an object may be: places and sizes, the best first. `ratio` says how much likelier a class is in the object than
+/// Where an object may be: places and sizes, the best first. `ratio` says how much likelier a class is in the object
+/// than
 /// around it; `reach` how far from the prediction it may be; squares of the window that others cover count as ground.
 #[allow(
     clippy::cast_possible_truncation,

@@ -26,7 +26,8 @@ const LEARN: f64 = 0.1;
 const NEARER: (usize, usize) = (2, 3);
 const MORE: f64 = 2.0;
 
-/// A node strays beyond so many times its usual deviation and the noise of a reading; twice as far after so many frames.
+/// A node strays beyond so many times its usual deviation and the noise of a reading; twice as far after so many
+/// frames.
 const STRAY: f64 = 4.0;
 const READING: f64 = 0.5;
 const PATIENCE: f64 = 10.0;

@@ -1,7 +1,7 @@
 //! The part of a frame about an object, as features: lightness, color, texture.
 //!
-//! All lengths are *cells*: one pixel where the object is small, blocks of b × b pixels where it is large. Cell (0, 0) is
-//! the first block of the frame; a window is a rectangle of cells.
+//! All lengths are *cells*: one pixel where the object is small, blocks of b × b pixels where it is large. Cell (0,
+//! 0) is the first block of the frame; a window is a rectangle of cells.
 
 use std::cell::Cell;
 

@@ -57,7 +57,8 @@ pub(crate) type Own = Option<(usize, usize)>;
 ///
 /// # Errors
 ///
-/// Pages without heads of their own; pages of several channels of which none is chosen, or of several slices at several moments.
+/// Pages without heads of their own; pages of several channels of which none is chosen, or of several slices at
+/// several moments.
 pub(crate) fn pages_of_channel<R: std::io::BufRead + std::io::Seek>(
     decoder: &mut Decoder<R>,
     channel: Option<&str>,
