@@ -83,4 +83,3 @@ pub use outline;
 pub use snake;
 pub use snake::{Outcome, Simulation};
 pub use track;
-pub use track::Tracker;

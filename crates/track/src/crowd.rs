@@ -3,10 +3,10 @@
 use field::Pixels;
 use glam::DVec2;
 
-use crate::body::lightness;
 use crate::palette::{Feature, Palette, SAMPLE};
 use crate::region::{filled, grown};
 use crate::ring;
+use crate::sight::lightness;
 use crate::view::View;
 use crate::window::{Lightness, Window, cells, to_cells};
 

@@ -59,7 +59,7 @@ const LEAST_ERROR: f64 = 0.03;
 const ERRORS_ALONG: f64 = 2.0;
 
 /// Beyond the candidates a window shows so much more. Cells.
-const MARGIN: f64 = 24.0;
+pub(crate) const MARGIN: f64 = 24.0;
 
 /// Where an object may be in a frame, before it is looked at.
 #[derive(Debug)]
@@ -114,7 +114,10 @@ impl Body {
             let mut wide = self.window(frame, &predicted.candidates[..1], reach);
             self.mark(&mut wide, predicted.expected(), others);
             let found = self.elsewhere(&wide, predicted, radius, reach);
-            if confidence(&found) > FOUND.max(confidence(&best)) {
+            let there = found
+                .as_ref()
+                .is_some_and(|found| self.was_there(found, radius));
+            if !there && confidence(&found) > FOUND.max(confidence(&best)) {
                 (best, window) = (found, wide);
             }
         }

@@ -13,6 +13,10 @@ const NEARLY: f64 = 0.95;
 /// A start lies on an edge if its own is at least this share of those so far beside it, in radii.
 const PEAK: f64 = 0.86;
 const BESIDE: f64 = 0.05;
+const LEAST_BESIDE: f64 = 3.5;
+
+/// … and if its own is at least this share of that of the outline found.
+const SHARE: f64 = 0.72;
 
 /// Points by which starts are compared with what is beside them, and the smoothing of their normals.
 const POINTS: usize = 200;
@@ -38,12 +42,12 @@ pub(crate) fn begun(
     }
     let taken = Fit::is_outline(&found)
         && overlap(&start.points, &found.contour.points) < NEARLY
-        && !is_on_edge(image, start, options);
+        && !is_on_edge(image, start, &found.contour, options);
     Ok(if taken { found.contour.points } else { own() })
 }
 
 /// Whether a start lies on an edge as it is drawn: whether there is as much of one on it as beside it.
-fn is_on_edge(image: &Image, start: &Contour, options: &Options) -> bool {
+fn is_on_edge(image: &Image, start: &Contour, found: &Contour, options: &Options) -> bool {
     let closed = true;
     let drawn = Polygon {
         points: start.points.clone(),
@@ -53,6 +57,11 @@ fn is_on_edge(image: &Image, start: &Contour, options: &Options) -> bool {
     let Some(searched) = search::find(image.pixels(), &drawn, &options.search) else {
         return false;
     };
+    let found = &Polygon {
+        points: found.points.clone(),
+        closed,
+    }
+    .outwards();
     let drawn = drawn.evenly(POINTS);
     let normals = drawn.normals(CALM);
     let radius = ring::radius(&drawn.points);
@@ -63,7 +72,9 @@ fn is_on_edge(image: &Image, start: &Contour, options: &Options) -> bool {
             .collect();
         searched.support(&Polygon { points, closed }).edge
     };
-    edge(0.0) >= PEAK * edge(-BESIDE).max(edge(BESIDE))
+    let beside = BESIDE.max(LEAST_BESIDE * searched.pixel / radius);
+    let own = edge(0.0);
+    own >= PEAK * edge(-beside).max(edge(beside)) && own >= SHARE * searched.support(found).edge
 }
 
 /// Intersection over union of two closed curves.

@@ -5,18 +5,16 @@ use std::collections::BTreeMap;
 use fit::{Contour, Image};
 use flow::Pyramid;
 use glam::DVec2;
-use ndarray::Array2;
 
 use crate::assign::beside;
 use crate::body::{Body, Frame, Step};
 use crate::contact;
 use crate::crowd::Crowd;
 use crate::divide::Division;
+use crate::light;
+use crate::ring;
 use crate::start::begun;
 use crate::{Event, Happening, Options, Outline, Prediction, State, TrackError, Tracked};
-
-/// How often a frame is halved for flow.
-const SIZES: usize = 5;
 
 /// Objects that are followed.
 #[derive(Debug)]
@@ -76,7 +74,7 @@ impl Tracker {
             frame: 0,
             next_id: 1,
             objects: Vec::new(),
-            before: pyramid(frame),
+            before: light::pyramid(frame),
             first: Tracked {
                 frame: 0,
                 outlines: Vec::new(),
@@ -102,11 +100,13 @@ impl Tracker {
                 pyramid: &tracker.before,
                 before: None,
             };
-            let body = Body::new(now, &points).ok_or(TrackError::Start {
-                index,
-                width,
-                height,
-            })?;
+            let body = Body::new(now, &points)
+                .or_else(|| Body::new(now, &starts[index].points))
+                .ok_or(TrackError::Start {
+                    index,
+                    width,
+                    height,
+                })?;
             tracker.add(body);
         }
         if options.births {
@@ -138,7 +138,8 @@ impl Tracker {
             });
         }
         self.frame += 1;
-        let pyramid = pyramid(frame);
+        let (frame, pyramid) = light::levelled(&self.before, frame);
+        let frame = &frame;
         let now = Frame {
             pixels: frame.pixels(),
             pyramid: &pyramid,
@@ -177,6 +178,10 @@ impl Tracker {
         for (object, (body, step)) in self.objects.iter_mut().zip(followed) {
             object.last = object.body.outline();
             object.body = body;
+            if step.state.is_seen() {
+                let middle = ring::middle(&object.body.curve);
+                object.body.seen_in = Some((frame.clone(), middle));
+            }
             let was = std::mem::replace(&mut object.step, step).state;
             let (is, sure) = (object.step.state, object.step.confidence.clamp(0.0, 1.0));
             let said = if was != State::Left && is == State::Left {
@@ -342,19 +347,4 @@ impl Object {
             prediction: step.prediction,
         }
     }
-}
-
-/// A frame as flow sees it.
-#[allow(
-    clippy::cast_possible_truncation,
-    reason = "levels in f32 are enough for flow"
-)]
-fn pyramid(frame: &Image) -> Pyramid {
-    let pixels = frame.pixels();
-    let (width, height) = pixels.size();
-    let levels = Array2::from_shape_fn((height, width), |(y, x)| {
-        let level = pixels.level(x, y) as f32;
-        if level.is_finite() { level } else { 0.0 }
-    });
-    Pyramid::of(levels, SIZES)
 }

@@ -29,7 +29,7 @@ const FLOORS: [(&str, u32); 22] = [
     ("subpixel", 3), // the last stage of a search
     ("instances", 4),
     ("fit", 5),
-    ("snakes", 6), // what users see of all below
+    ("snakes", 7), // what users see of all below
     ("track", 6),
     ("scene", 7),
     ("cli", 8),

@@ -96,7 +96,7 @@ mod tests {
         assert_eq!((numbers.object(3), numbers.object(4)), (Some(2), None));
         // one that was lost and is taken up again under its number
         numbers.set(11, 3);
-        assert_eq!((numbers.object(3), numbers.of_object(12)), (Some(11), 9));
+        assert_eq!((numbers.object(3), numbers.of_object(12)), (Some(11), 10));
         for list in [["7", "7"], ["a", "1"], ["0", "1"]] {
             let mut numbers = Numbers::of(&list.map(shape));
             assert_eq!([1, 2, 3].map(|id| numbers.of_object(id)), [1, 2, 3]);
