@@ -34,6 +34,8 @@ pub(super) struct Tally {
     /// Objects that were not seen in the last frame.
     pub(super) hidden: BTreeSet<u32>,
     pub(super) alive: usize,
+    /// Objects that have left the frame and are waited for.
+    pub(super) waited: BTreeSet<u32>,
     pub(super) divided: usize,
     pub(super) born: usize,
     /// Outlines that were not seen, of all.
@@ -120,11 +122,11 @@ impl Course {
         let tally = &mut self.tally;
         tally.frames += 1;
         tally.last = frame;
-        tally.alive = seen.len();
         tally.outlines += seen.len();
         tally.hidden.clear();
         for one in seen {
             tally.objects.insert(one.tracked.id);
+            tally.waited.remove(&one.tracked.id);
             if one.tracked.state == TrackState::Coasting {
                 tally.coasting += 1;
                 tally.hidden.insert(one.tracked.id);
@@ -134,12 +136,17 @@ impl Course {
             match one.word {
                 "lost" => {
                     tally.lost.insert(one.id);
+                    tally.waited.remove(&one.id);
+                }
+                "left" => {
+                    tally.waited.insert(one.id);
                 }
                 "divided" => tally.divided += 1,
                 "born" => tally.born += 1,
                 _ => {}
             }
         }
+        tally.alive = seen.len() + tally.waited.len();
     }
 }
 

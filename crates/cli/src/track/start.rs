@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use ::track::{Options, Start};
+use glam::DVec2;
 use io::Picture;
 use io::frames::Frames;
 use io::shapes::{Reading, Shape};
@@ -60,8 +61,10 @@ pub(super) fn starts(
     let mut shapes: Vec<Shape> = Vec::new();
     if let Some(seeds) = &flags.seeds {
         let (objects, seeds) = seeds.objects(picture, &reading, &stem(&file))?;
-        let found = objects.len();
-        shapes.extend(objects.into_iter().map(|object| {
+        let large = objects
+            .into_iter()
+            .filter(|object| area(&object.outline) > SMALLEST);
+        shapes.extend(large.map(|object| {
             let mut shape = Shape::curve(object.outline, Some(true));
             shape.id = seeds.get(object.seed).and_then(|seed| seed.id.clone());
             shape
@@ -72,7 +75,8 @@ pub(super) fn starts(
                 "no object is found in the frame; needed: --from",
             ));
         }
-        words.say(&format!("{} found to follow", counted(found, "object")));
+        let found = counted(shapes.len(), "object");
+        words.say(&format!("{found} found to follow"));
     }
     for start in &flags.from {
         let (own, notes) = start.outlines(&reading, &stem(&file))?;
@@ -106,4 +110,14 @@ pub(super) fn options(flags: &Flags) -> Options {
         threads: flags.jobs.unwrap_or_else(cores).max(1),
         ..Options::default()
     }
+}
+
+/// Objects found by themselves that are smaller cannot be followed. Square pixels.
+const SMALLEST: f64 = 4.0;
+
+/// What a closed outline encloses.
+fn area(outline: &[DVec2]) -> f64 {
+    let next = outline.iter().cycle().skip(1);
+    let twice: f64 = outline.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum();
+    0.5 * twice.abs()
 }
