@@ -177,15 +177,15 @@ fn a_start_in_any_frame_is_followed_back_and_onwards() {
 fn outlines_by_hand_mend_what_was_wrong_before_them() {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("in")).unwrap();
-    // the disc is away for three frames and comes back elsewhere; one like it never moves
+    // the disc is away for three frames and comes back elsewhere; meanwhile one like it comes and stays
     let center = |t: usize| [24.0 + 4.0 * t as f64, 25.0];
     for t in 0..16 {
         let still = [70.0, 80.0];
         let both = [still, center(t)];
-        let shown = if (5..8).contains(&t) {
-            &both[..1]
-        } else {
-            &both
+        let shown = match t {
+            0..5 => &both[1..],
+            5..8 => &both[..1],
+            _ => &both,
         };
         folder.write(&format!("in/f{t:02}.pgm"), discs([130, 110], shown));
     }
