@@ -100,6 +100,9 @@ const MUCH_BETTER: f64 = 0.1;
 /// The start's inside is unlike its surroundings where their medians differ by this share of the spread of all.
 const PLAIN: f64 = 0.25;
 
+/// The middle of a start and its surroundings look alike below this difference of their medians, in percent of the range.
+const FAINT: f64 = 1.0;
+
 /// An edge is of no polarity where the mean of its directions is less than this share of its strength.
 const NO_POLARITY: f64 = 0.5;
 
@@ -119,7 +122,9 @@ pub fn find(pixels: &dyn Pixels, start: &Polygon, rules: &Rules) -> Option<Searc
     let some = own.closed > rules.unsure
         && own.polar > NO_POLARITY * own.edge
         && seen.contrast > seen.noise.max(PLAIN * seen.spread);
-    if !own.is_slope() && (own.closed > rules.sure || some) {
+    // a start that looks as what is around it may lie wholly inside
+    let faint = seen.contrast < FAINT;
+    if !own.is_slope() && ((own.closed > rules.sure && !faint) || some) {
         return Some(first);
     }
     // nothing at the start or within: it may lie inside
