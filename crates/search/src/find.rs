@@ -100,7 +100,8 @@ const MUCH_BETTER: f64 = 0.1;
 /// The start's inside is unlike its surroundings where their medians differ by this share of the spread of all.
 const PLAIN: f64 = 0.25;
 
-/// The middle of a start and its surroundings look alike below this difference of their medians, in percent of the range.
+/// The middle of a start and its surroundings look alike below this difference of their medians, in percent of the
+/// range.
 const FAINT: f64 = 1.0;
 
 /// An edge is of no polarity where the mean of its directions is less than this share of its strength.

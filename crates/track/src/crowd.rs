@@ -80,8 +80,8 @@ impl Crowd {
         })
     }
 
-    /// A frame in which objects have those outlines; of `taught` it learns what they look like. None where objects cannot
-    /// be told from the ground.
+    /// A frame in which objects have those outlines; of `taught` it learns what they look like. None where objects
+    /// cannot be told from the ground.
     pub(crate) fn view(
         &mut self,
         pixels: &dyn Pixels,

@@ -9,7 +9,8 @@
 //! let frame = |t: f64| {
 //!     let center = DVec2::new(30.0 + 3.0 * t, 40.0);
 //!     let inside = |p: DVec2| (14.5 - p.distance(center)).clamp(0.0, 1.0);
-//!     Image::grey(field::Grid::from_shape_fn((80, 120), |(y, x)| 60.0 + 120.0 * inside(DVec2::new(x as f64, y as f64))))
+//!     let level = |(y, x)| 60.0 + 120.0 * inside(DVec2::new(x as f64, y as f64));
+//!     Image::grey(field::Grid::from_shape_fn((80, 120), level))
 //! };
 //! let mut tracker = Tracker::new(&frame(0.0), &[Contour::circle(DVec2::new(30.0, 40.0), 14.0)], &Options::default())?;
 //! for t in 1..8 {

@@ -1,8 +1,7 @@
 //! Light that changes for the whole frame: a lamp that flickers, a sun behind a cloud, a dye that bleaches.
 //!
-//! Most of a frame shows the same as the one before, a little moved. So the median of the ratios of both, place by place
-//! in the coarsest of the halved pictures, is how much brighter all has become; an object that fades by itself does not
-//! move it.
+//! Most of a frame shows the same as the one before, a little moved. So the gain is the median of the ratios of both,
+//! place by place in the coarsest of the halved pictures. An object that fades by itself does not move that median.
 
 use field::Grid;
 use fit::Image;

@@ -9,12 +9,14 @@ use crate::ring;
 use crate::tables::{Strips, depth};
 use crate::window::Window;
 
-/// What is found so many radii from where the object was, and had this share of its evidence there then, is another one.
+/// What is found so many radii from where the object was, and had this share of its evidence there then, is another
+/// one.
 const APART: f64 = 1.0;
 const TWIN: f64 = 0.7;
 
 impl Body {
-    /// Whether what was found elsewhere was already there when the object was seen last: then it is another one like it.
+    /// Whether what was found elsewhere was already there when the object was seen last: then it is another one
+    /// like it.
     pub(crate) fn was_there(&self, found: &Seen, radius: f64) -> bool {
         let Some((image, middle)) = &self.seen_in else {
             return false;

@@ -1,7 +1,7 @@
 //! Frames of a sequence, one after the other: files, a folder of them, the pages of a TIFF, a video.
 //!
 //! One frame is in memory at a time. What cannot be read, or is of another size than the first frame, is
-//! [`Frame::Broken`] and not the end: whoever follows something through the sequence can do without it.
+//! [`Frame::Broken`] and not the end: a tracker can go on without it.
 //!
 //! - Files are taken as they are named, but where they stand in the order of a shell (`f1 f10 f2`), by number.
 //! - A folder is one sequence, by number. Masks and the like beside frames (`f1_mask.png`), hidden files and what is

@@ -118,9 +118,12 @@ impl TrackWriter {
     ///
     /// # Errors
     ///
-    /// A frame that is not behind the one before; an object twice, or with the number 0; an outline of one or two
-    /// points, of too many, or with a point that is not finite or too far; a confidence that is none; a full disk (of a
-    /// table, the frames before are kept); in a table that is gone on with, rows that are others than those there.
+    /// - A frame number that is not above the last one.
+    /// - An object that is given twice, or has the number 0.
+    /// - An outline of one or two points, of too many, or with a point that is not finite or too far away.
+    /// - A confidence that is not from 0 to 1.
+    /// - A full disk. The frames of a table that were written before are kept.
+    /// - In a table that is continued: a row that differs from the one in the file.
     pub fn frame(&mut self, frame: usize, name: &str, tracked: &[Tracked]) -> Result<(), IoError> {
         let refuse = |what: String| IoError::file(&self.path, format!("frame {frame}: {what}"));
         if frame < self.next {

@@ -168,7 +168,7 @@ fn starts(path: &Path, clips: &mut [Clip], problems: &mut Vec<String>) -> Result
 /// it is there, `01_GT/SEG`. None if there is none.
 pub(super) fn of_challenge(folder: &Path) -> Result<Option<Vec<Clip>>, IoError> {
     let Ok(entries) = std::fs::read_dir(folder) else {
-        return Ok(None); // whoever reads it otherwise says what is wrong
+        return Ok(None); // another reader of this file will say what is wrong with it
     };
     let mut names: Vec<String> = Vec::new();
     for entry in entries.flatten() {
