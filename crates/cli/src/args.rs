@@ -36,7 +36,7 @@ pub(crate) struct Words {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Run a scene: a shipped one by name (see `list`), or a TOML file.
+    /// Run a scene: a shipped one by name (see `list`), a TOML file, or a session of `live`.
     #[command(after_help = CODES)]
     Run(Run),
     /// Write every stage from a picture to its force field, or every kind of field, as pictures and numbers.
@@ -48,6 +48,9 @@ pub(crate) enum Command {
     /// Follow outlines through the frames of a sequence: files, a folder, the pages of a TIFF, a video.
     #[command(after_help = CODES, after_long_help = crate::track::EXAMPLES)]
     Track(Box<crate::track::Flags>),
+    /// A window in the browser: throw balls, find outlines, mend them, follow them.
+    #[command(after_help = CODES, after_long_help = crate::live::EXAMPLES)]
+    Live(crate::live::Flags),
     /// Score the fit of `fit` on a data set whose truth is known.
     #[command(after_help = eval::CODES)]
     Eval(eval::Eval),
@@ -80,7 +83,7 @@ pub(crate) struct Man {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Run {
-    /// A shipped scene's name, or a scene file; `-` is standard input.
+    /// A shipped scene's name, a scene file, or a session of `live`; `-` is standard input.
     pub scene: PathBuf,
     #[command(flatten)]
     pub changes: Changes,

@@ -21,6 +21,9 @@ use crate::stop::{STOPPED, Stop};
 pub(crate) type Answer = Result<ExitCode, SceneError>;
 
 pub(crate) fn run(args: &args::Run, words: Words) -> Answer {
+    if crate::live::is_session(&args.scene) {
+        return crate::live::replay(args, words);
+    }
     let mut scene = find(&args.scene, &args.changes)?.scene()?;
     let plan = &mut scene.plan;
     if let Some(name) = &args.scheme {

@@ -8,6 +8,7 @@ mod commands;
 mod crop;
 mod eval;
 mod fit;
+mod live;
 mod manual;
 mod output;
 mod stop;
@@ -30,6 +31,7 @@ fn main() -> ExitCode {
         args::Command::Field(field) => commands::field(&field, words),
         args::Command::Fit(flags) => fit::fit(&flags, words),
         args::Command::Track(flags) => track::track(&flags, words),
+        args::Command::Live(flags) => live::live(&flags, words),
         args::Command::Eval(eval) => eval::eval(&eval, words),
         args::Command::Show(show) => commands::show(&show),
         args::Command::List(list) => commands::list(&list, words),

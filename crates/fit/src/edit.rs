@@ -2,8 +2,9 @@
 
 use elastic::{Material, Profile};
 use glam::DVec2;
-use snake::{Acting, ImageForce, Sampling, SimulationError, Spring};
+use snake::{Acting, ImageForce, Repulsor, Sampling, SimulationError, Spring};
 
+use crate::force::PULL;
 use crate::{FitError, OptionKey, Problem, Session};
 
 /// What a user does to a curve between two steps.
@@ -25,6 +26,16 @@ pub enum Edit {
     },
     /// Pull no longer.
     LetGo,
+    /// Push nodes away from a place: as strongly as so many edges of the picture's contrast pull. A further push is one
+    /// more.
+    Push {
+        /// From where. Pixels.
+        from: DVec2,
+        /// How far it is felt. Pixels.
+        reach: f64,
+        /// Against the pull of an edge.
+        pulls: f64,
+    },
     /// Let the edge force pull with another strength, as
     /// [`Options::strength`](crate::Options::strength) says.
     Strength(f64),
@@ -87,6 +98,18 @@ impl Session {
                 self.change(OptionKey::Pull, snake::Edit::Remove(HAND.to_owned()))?;
             }
             Edit::LetGo => {}
+            Edit::Push { from, reach, pulls } => {
+                let numbers = [from.x, from.y, pulls];
+                if let Some(got) = numbers.into_iter().find(|number| !number.is_finite()) {
+                    let needed = "finite";
+                    let problem = Problem::Number { needed, got };
+                    return Err(FitError::new(OptionKey::Pull, problem));
+                }
+                let reach = Problem::above_zero(reach)
+                    .map_err(|problem| FitError::new(OptionKey::Pull, problem))?;
+                let push = Acting::new(Repulsor::new(from, reach, PULL * pulls));
+                self.change(OptionKey::Pull, snake::Edit::Add(push))?;
+            }
             Edit::Strength(strength) => self.pull_by(strength)?,
             Edit::Material {
                 tether,

@@ -10,6 +10,7 @@ use crate::finder::found;
 use crate::force::{Edge, ForceKey, ImageForceKind, PULL, Sight, check_smoothing};
 use crate::options::{Method, Step};
 use crate::session::Session;
+use crate::setup::inside;
 use crate::{Contour, Fit, FitError, FitForce, Image, OptionKey, Options, Problem};
 
 /// A start of a search may reach beyond the image by so many of its larger sides: work and memory of a search grow
@@ -129,6 +130,16 @@ impl Prepared {
     /// As [`Prepared::fit`].
     pub fn session(&self, start: &Contour) -> Result<Session, FitError> {
         Session::new(self, start)
+    }
+
+    /// The same of nodes that stay as they are, each a node of the curve, whatever the options say of their number.
+    ///
+    /// # Errors
+    ///
+    /// As [`Prepared::fit`].
+    pub fn session_of_nodes(&self, nodes: &Contour) -> Result<Session, FitError> {
+        inside(self, &nodes.points)?;
+        Session::of(self, nodes.points.clone(), nodes.closed)
     }
 
     /// The options that it was made ready for.

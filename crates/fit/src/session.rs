@@ -34,7 +34,7 @@ const RESOLVES: f64 = 2.5;
 /// assert!((session.finish().contour.points[0].x - 45.0).abs() < 1.0);
 /// # Ok::<(), fit::FitError>(())
 /// ```
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Session {
     pub(crate) prepared: Prepared,
     pub(crate) simulation: Simulation,
@@ -47,8 +47,12 @@ pub struct Session {
 
 impl Session {
     pub(crate) fn new(prepared: &Prepared, start: &Contour) -> Result<Self, FitError> {
-        let closed = start.closed;
         let x = place(prepared, start, nodes(prepared, start))?;
+        Self::of(prepared, x, start.closed)
+    }
+
+    /// A motion of these nodes, which are in the image.
+    pub(crate) fn of(prepared: &Prepared, x: Vec<DVec2>, closed: bool) -> Result<Self, FitError> {
         let options = prepared.options();
         let forces = prepared.forces()?;
         let topology = if closed {

@@ -29,6 +29,26 @@ pub(crate) fn nodes(prepared: &Prepared, start: &Contour) -> usize {
     prepared.options().nodes.along(along)
 }
 
+/// Refuse points that are not in the image.
+pub(crate) fn inside(prepared: &Prepared, points: &[DVec2]) -> Result<(), FitError> {
+    let (width, height) = prepared.image().size();
+    let most = DVec2::new(width as f64, height as f64) - 0.5;
+    // written so that a NaN is outside too
+    let inside = |p: &DVec2| p.cmpge(DVec2::splat(-0.5)).all() && p.cmple(most).all();
+    let Some(index) = points.iter().position(|p| !inside(p)) else {
+        return Ok(());
+    };
+    let DVec2 { x, y } = points[index];
+    let problem = Problem::Outside {
+        index,
+        x,
+        y,
+        width,
+        height,
+    };
+    Err(FitError::new(OptionKey::Start, problem))
+}
+
 /// So many nodes of a start, evenly along a spline through its points, in the image.
 pub(crate) fn place(
     prepared: &Prepared,
@@ -36,21 +56,7 @@ pub(crate) fn place(
     nodes: usize,
 ) -> Result<Vec<DVec2>, FitError> {
     let clicks = start.clicks();
-    let (width, height) = prepared.image().size();
-    let most = DVec2::new(width as f64, height as f64) - 0.5;
-    // written so that a NaN is outside too
-    let inside = |p: &DVec2| p.cmpge(DVec2::splat(-0.5)).all() && p.cmple(most).all();
-    if let Some(index) = clicks.iter().position(|p| !inside(p)) {
-        let DVec2 { x, y } = clicks[index];
-        let problem = Problem::Outside {
-            index,
-            x,
-            y,
-            width,
-            height,
-        };
-        return Err(FitError::new(OptionKey::Start, problem));
-    }
+    inside(prepared, &clicks)?;
     if nodes > MOST_NODES {
         let problem = Problem::Count {
             least: 3,

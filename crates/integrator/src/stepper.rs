@@ -8,7 +8,7 @@ use crate::{Fault, FaultKind, SchemeError, State, System};
 ///
 /// Owns the scratch space and whatever history the scheme needs. Between two steps the state is the
 /// stepper's: whoever changes it starts a new one.
-pub trait Stepper: std::fmt::Debug + Send {
+pub trait Stepper: std::fmt::Debug + Send + Sync {
     /// Move `state` one step on. Allocates nothing, unless the system's schedules change.
     ///
     /// # Errors

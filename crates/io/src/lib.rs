@@ -38,5 +38,5 @@ pub use claims::{Claims, is_standard};
 pub use error::IoError;
 pub use image::RgbImage;
 pub use picture::{Invalid, Picture, PictureReading, PixelSize};
-pub use read::{called, read_text};
+pub use read::{called, read_file, read_text};
 pub use write::{ready_file, ready_folder, write_whole};

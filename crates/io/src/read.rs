@@ -38,6 +38,15 @@ pub fn read_text(path: &Path, wanted: &str, most: u64) -> Result<String, IoError
     Ok(text)
 }
 
+/// The bytes of a file, or of standard input for `-`; `wanted` says what is needed.
+///
+/// # Errors
+///
+/// A file that cannot be read or that holds more than `most` bytes.
+pub fn read_file(path: &Path, wanted: &str, most: u64) -> Result<Vec<u8>, IoError> {
+    read_bytes(path, wanted, |_| most)
+}
+
 /// The bytes of a file, or of standard input for `-`, of which there may be so many as `most` says of the first 64.
 ///
 /// # Errors

@@ -21,6 +21,7 @@
 
 mod catalogue;
 mod company;
+mod course;
 mod error;
 mod fields;
 mod file;
@@ -37,6 +38,7 @@ mod toml_error;
 
 pub use catalogue::{APPLE_DISTURBING, SCENES, contour, headline, picture};
 pub use company::Company;
+pub use course::Course;
 pub use error::SceneError;
 pub use fields::Fields;
 pub use fit::force::Computing;

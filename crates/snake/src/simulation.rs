@@ -276,6 +276,18 @@ impl Simulation {
         &self.members
     }
 
+    /// How everything moves.
+    #[must_use]
+    pub const fn stepping(&self) -> &Stepping {
+        &self.stepping
+    }
+
+    /// What happens where curves meet; None: they pass through each other.
+    #[must_use]
+    pub const fn contact(&self) -> Option<&Contact> {
+        self.contact.as_ref()
+    }
+
     /// What has happened to curves so far.
     #[must_use]
     pub fn events(&self) -> &[Event] {

@@ -53,16 +53,20 @@ pub(crate) fn parted(outlines: &mut [Outline]) {
             if !seen || !near(&one.points, &other.points) {
                 continue;
             }
-            let share = shared(&one.points, &other.points);
-            if share > 0.0 && share < CONTACT {
-                let (a, b) = (
-                    cut_off(&one.points, &other.points),
-                    cut_off(&other.points, &one.points),
-                );
+            if let Some((a, b)) = bordered(&one.points, &other.points) {
                 (one.points, other.points) = (a, b);
             }
         }
     }
+}
+
+/// Two closed curves in contact, each ending at the common border; None where they do not overlap, or share so much of
+/// the smaller one that they cross. Nodes keep their number and order. Pixels.
+#[must_use]
+pub fn bordered(one: &[DVec2], other: &[DVec2]) -> Option<(Vec<DVec2>, Vec<DVec2>)> {
+    let share = shared(one, other);
+    let touch = share > 0.0 && share < CONTACT;
+    touch.then(|| (cut_off(one, other), cut_off(other, one)))
 }
 
 /// The nodes of a curve, those inside another one put evenly on the chord from where it enters to where it leaves.

@@ -80,6 +80,7 @@ mod window;
 
 pub use blend::blended;
 pub use body::State;
+pub use contact::bordered;
 pub use error::TrackError;
 pub use options::{Options, Start};
 pub use predict::Prediction;

@@ -16,8 +16,8 @@ use crate::ring;
 use crate::start::begun;
 use crate::{Event, Happening, Options, Outline, Prediction, State, TrackError, Tracked};
 
-/// Objects that are followed.
-#[derive(Debug)]
+/// Objects that are followed. A copy goes on as the original does.
+#[derive(Debug, Clone)]
 pub struct Tracker {
     pub(crate) options: Options,
     pub(crate) size: (usize, usize),

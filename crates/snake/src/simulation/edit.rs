@@ -105,6 +105,60 @@ impl Simulation {
         Ok(())
     }
 
+    /// Let curves push each other by these rules from now on; None: they pass through each other.
+    ///
+    /// # Errors
+    ///
+    /// As [`Simulation::new`]; then nothing has changed.
+    pub fn set_contact(&mut self, contact: Option<super::Contact>) -> Result<(), SimulationError> {
+        let mut other = self.clone();
+        other.contact = contact;
+        other.check_alone(other.members.len())?;
+        (other.parts, other.least_parts, other.cut) = (1, 1, None);
+        if let Some(contact) = &contact {
+            contact.validate()?;
+            other.cut(other.contact_limit(contact))?;
+        }
+        other.meet(None)?;
+        *self = other;
+        Ok(())
+    }
+
+    /// Put snake number `id` at these places with these velocities, at the time it is.
+    ///
+    /// # Errors
+    ///
+    /// A number that no snake has, a state of another number of nodes, a place at which a force has no value; then
+    /// nothing has changed.
+    pub fn move_to(
+        &mut self,
+        id: usize,
+        x: Vec<DVec2>,
+        v: Vec<DVec2>,
+    ) -> Result<(), SimulationError> {
+        let mut other = self.clone();
+        let (k, before) = (other.index(id)?, other.sum());
+        let needed = other.members[k].state.len();
+        for got in [x.len(), v.len()] {
+            if got != needed {
+                return Err(SnakeError::OtherLength { needed, got }.into());
+            }
+        }
+        other.remember(k);
+        let member = &mut other.members[k];
+        (member.state.x, member.state.v) = (x, v);
+        let (mut snake, state) = (member.snake.clone(), member.state.clone());
+        let begun = other.pace_of(k, &mut snake, &state);
+        let (pace, cuts) = begun.map_err(|error| error.of(id))?;
+        let member = &mut other.members[k];
+        (member.snake, member.pace, member.cuts) = (snake, pace, cuts);
+        member.resume()?;
+        other.meet(None)?;
+        other.books.hand += before - other.sum();
+        *self = other;
+        Ok(())
+    }
+
     /// One more snake from now on; its number.
     ///
     /// # Errors
