@@ -40,7 +40,8 @@ pub fn fit_many(jobs: &[Job<'_>], threads: usize, each: impl FnMut(usize, Result
 }
 
 /// Do pieces of work on so many threads, and hand each answer over in the order of the work, as soon as it and all
-/// before it are there. With one thread, or one piece of work, it is done on the caller's own.
+/// before it are there. With one thread, or one piece of work, it is done on the caller's own;
+/// so it is in a browser, whatever is asked for.
 ///
 /// ```
 /// let mut squares = Vec::new();
@@ -54,7 +55,8 @@ pub fn in_order<J: Sync, T: Send>(
     mut each: impl FnMut(usize, T),
 ) {
     let threads = NonZero::new(threads.min(jobs.len())).map_or(1, NonZero::get);
-    if threads == 1 {
+    // in a browser none can be started
+    if threads == 1 || cfg!(target_family = "wasm") {
         for (index, job) in jobs.iter().enumerate() {
             each(index, work(job));
         }

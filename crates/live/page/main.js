@@ -566,8 +566,9 @@ async function engine() {
   const inside = document.getElementById("wasm");
   if (inside) {
     const text = inside.textContent || "";
-    const bytes = Uint8Array.from(atob(text.trim()), (c) => c.charCodeAt(0));
-    return Wasm.of(bytes);
+    const packed = Uint8Array.from(atob(text.trim()), (c) => c.charCodeAt(0));
+    const bytes = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return Wasm.of(await new Response(bytes).arrayBuffer());
   }
   const scheme = location.protocol === "https:" ? "wss" : "ws";
   return new Socket(`${scheme}://${location.host}/socket${location.search}`);

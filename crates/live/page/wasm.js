@@ -39,8 +39,21 @@ export class Wasm {
    * @param {number} length
    */
   output(length) {
-    const at = this.parts.output();
+    const at = this.parts.output() >>> 0;
     return new Uint8Array(this.parts.memory.buffer, at, length).slice();
+  }
+
+  /**
+   * A call has ended in a trap: the engine is of no use any more.
+   * @param {unknown} error
+   */
+  stopped(error) {
+    const length = this.parts.failure();
+    const why = length
+      ? new TextDecoder().decode(new Uint8Array(this.parts.memory.buffer, this.parts.failed_at() >>> 0, length))
+      : String(error);
+    this.onlost(`The engine has stopped: ${why}. Load the page again.`);
+    this.tick = () => {};
   }
 
   /** @param {number} now */
@@ -53,8 +66,7 @@ export class Wasm {
       this.took = performance.now() - began;
       if (changed) this.onframe(decode(this.output(this.parts.frame())));
     } catch (error) {
-      this.onlost(`The engine has stopped: ${error}. Load the page again.`);
-      this.tick = () => {};
+      this.stopped(error);
     }
   }
 
@@ -65,9 +77,16 @@ export class Wasm {
    */
   async call(head, rest) {
     const bytes = encode({ id: this.next++, ...head }, rest);
-    const at = this.parts.input(bytes.length);
+    const at = this.parts.input(bytes.length) >>> 0;
+    if (!at) throw new Error(`there is no memory for ${bytes.length} bytes`);
     new Uint8Array(this.parts.memory.buffer, at, bytes.length).set(bytes);
-    const packet = decode(this.output(this.parts.call()));
+    let packet;
+    try {
+      packet = decode(this.output(this.parts.call()));
+    } catch (error) {
+      this.stopped(error);
+      throw error;
+    }
     if ("error" in packet.head) throw new Error(packet.head.error);
     return packet;
   }

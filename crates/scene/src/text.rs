@@ -1,7 +1,9 @@
 //! The text of a scene as a value: read, changed key by key, built and written.
 
+use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use io::IoError;
 use toml::{Table, Value};
@@ -29,6 +31,8 @@ use crate::{SceneError, catalogue, file, meaning, toml_error};
 pub struct SceneText {
     name: String,
     folder: PathBuf,
+    /// Files in memory, by the names in the text.
+    held: Arc<meaning::Held>,
     /// The file it was read from.
     input: Option<PathBuf>,
     /// As it was read, comments and all.
@@ -80,10 +84,29 @@ impl SceneText {
         Ok(Self {
             name: name.to_owned(),
             folder: folder.to_owned(),
+            held: Arc::default(),
             input: None,
             source: text.to_owned(),
             written: toml_error::parse(text)?,
         })
+    }
+
+    /// The same with files in memory, by the names that the text has for them: of those names none is looked for in
+    /// the folder. So a scene can be read where there are no files at all.
+    ///
+    /// ```
+    /// let mut text = scene::SceneText::named("soft-ball")?;
+    /// text.set("snake.start", "{ file = \"ring.csv\" }")?;
+    /// assert!(text.scene().is_err()); // there is no such file
+    /// let ring = b"x,y\n4,8\n6,8\n6,9\n4,9\n".to_vec();
+    /// let scene = text.with_files([("ring.csv".to_owned(), ring)].into()).scene()?;
+    /// assert_eq!(scene.start.len(), 4);
+    /// # Ok::<(), scene::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn with_files(mut self, files: BTreeMap<String, Vec<u8>>) -> Self {
+        self.held = Arc::new(files);
+        self
     }
 
     /// The text as it was read, with its comments and without any change.
@@ -98,7 +121,7 @@ impl SceneText {
     ///
     /// A value that makes no sense, by its key; a file it names that cannot be read.
     pub fn scene(&self) -> Result<Scene, SceneError> {
-        let built = meaning::build(&self.name, &self.written, &self.folder);
+        let built = meaning::build(&self.name, &self.written, &self.folder, &self.held);
         let Some(path) = &self.input else {
             return built;
         };

@@ -14,7 +14,7 @@ mod sizes;
 mod words;
 
 /// Own packages, without the prefix `snakes-`, and their floor: an arrow may only point to a lower one.
-const FLOORS: [(&str, u32); 23] = [
+const FLOORS: [(&str, u32); 24] = [
     ("lanes", 0),
     ("banded", 0),
     ("field", 1),
@@ -34,6 +34,7 @@ const FLOORS: [(&str, u32); 23] = [
     ("scene", 7),
     ("live", 8),
     ("cli", 9),
+    ("wasm", 9), // the page with its engine inside
     ("sandbox", 8),
     ("benches", 9), // it draws with the kit of the sandbox
     ("peers", 10),  // general solvers, which nothing else builds

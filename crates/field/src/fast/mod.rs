@@ -62,14 +62,19 @@ pub struct FastForce {
 }
 
 impl FastForce {
-    /// Prepares a recipe for `threads` threads (0 counts as 1).
+    /// Prepares a recipe for `threads` threads (0 counts as 1; so does any number in a browser, where none can be started).
     ///
     /// # Errors
     /// Numbers [`Recipe::validate`] refuses.
     pub fn new(recipe: Recipe, threads: usize) -> Result<Self, FieldError> {
         recipe.validate()?;
+        let threads = if cfg!(target_family = "wasm") {
+            1
+        } else {
+            threads.max(1)
+        };
         let workers = std::iter::repeat_with(Scratch::default)
-            .take(threads.max(1))
+            .take(threads)
             .collect();
         Ok(Self {
             recipe,

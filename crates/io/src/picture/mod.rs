@@ -106,6 +106,15 @@ impl Picture {
             .map_err(|message| IoError::file(&crate::read::called(path), message))
     }
 
+    /// [`Picture::load_as`] from the bytes of a file of that name, for messages.
+    ///
+    /// # Errors
+    ///
+    /// As [`Picture::load_as`].
+    pub fn decode_named(bytes: &[u8], name: &Path, rule: &PictureReading) -> Result<Self, IoError> {
+        Self::decode_as(bytes, rule).map_err(|message| IoError::file(name, message))
+    }
+
     /// [`Picture::decode`] with a word on what of the file is read and how.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! How many pages a picture file has.
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
 use tiff::decoder::Decoder;
@@ -21,32 +21,46 @@ impl Picture {
     ///
     /// A file that cannot be opened, a TIFF that is broken, or has more than 65536 pages.
     pub fn pages(path: &Path, channel: Option<&str>) -> Result<usize, IoError> {
-        let refuse = |message: String| IoError::file(path, message);
-        let file = File::open(path)
-            .map_err(|error| refuse(format!("cannot be read: {error}; a picture is needed")))?;
-        let mut file = BufReader::new(file);
-        if !is_tiff(&mut file).map_err(|error| refuse(format!("cannot be read: {error}")))? {
-            return Ok(1);
-        }
-        let mut decoder = Decoder::new(&mut file).map_err(|error| refuse(broken(error)))?;
-        let channels = tiff_size::said(&mut decoder).channels.len().max(1);
-        let mut pages = 1;
-        while decoder.more_images() {
-            if pages == MOST_PAGES {
-                return Err(refuse(format!(
-                    "has more than {MOST_PAGES} pages, which are the most"
-                )));
-            }
-            decoder
-                .next_image()
-                .map_err(|error| refuse(broken(error)))?;
-            pages += 1;
-        }
-        Ok(match channel {
-            Some(_) => (pages / channels).max(1),
-            None => pages,
-        })
+        let file = File::open(path).map_err(|error| {
+            IoError::file(
+                path,
+                format!("cannot be read: {error}; a picture is needed"),
+            )
+        })?;
+        count(BufReader::new(file), channel).map_err(|message| IoError::file(path, message))
     }
+
+    /// [`Picture::pages`] from the bytes of a file of that name, for messages.
+    ///
+    /// # Errors
+    ///
+    /// As [`Picture::pages`].
+    pub fn pages_named(bytes: &[u8], name: &Path, channel: Option<&str>) -> Result<usize, IoError> {
+        count(Cursor::new(bytes), channel).map_err(|message| IoError::file(name, message))
+    }
+}
+
+/// How many pages there are.
+fn count(mut file: impl BufRead + Seek, channel: Option<&str>) -> Result<usize, String> {
+    if !is_tiff(&mut file).map_err(|error| format!("cannot be read: {error}"))? {
+        return Ok(1);
+    }
+    let mut decoder = Decoder::new(&mut file).map_err(broken)?;
+    let channels = tiff_size::said(&mut decoder).channels.len().max(1);
+    let mut pages = 1;
+    while decoder.more_images() {
+        if pages == MOST_PAGES {
+            return Err(format!(
+                "has more than {MOST_PAGES} pages, which are the most"
+            ));
+        }
+        decoder.next_image().map_err(broken)?;
+        pages += 1;
+    }
+    Ok(match channel {
+        Some(_) => (pages / channels).max(1),
+        None => pages,
+    })
 }
 
 /// The first page of a channel and the step from one to the next, where pages are channels.
@@ -59,7 +73,7 @@ pub(crate) type Own = Option<(usize, usize)>;
 ///
 /// Pages without heads of their own; pages of several channels of which none is chosen, or of several slices at
 /// several moments.
-pub(crate) fn pages_of_channel<R: std::io::BufRead + std::io::Seek>(
+pub(crate) fn pages_of_channel<R: BufRead + Seek>(
     decoder: &mut Decoder<R>,
     channel: Option<&str>,
 ) -> Result<(Own, Option<PixelSize>), String> {
@@ -90,8 +104,7 @@ pub(crate) fn pages_of_channel<R: std::io::BufRead + std::io::Seek>(
     Ok((of, said.pixel_size))
 }
 
-fn is_tiff(file: &mut BufReader<File>) -> std::io::Result<bool> {
-    use std::io::BufRead as _;
+fn is_tiff(file: &mut impl BufRead) -> std::io::Result<bool> {
     let head = file.fill_buf()?;
     let heads = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
     Ok(heads.iter().any(|known| head.starts_with(*known)))

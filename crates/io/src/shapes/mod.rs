@@ -224,18 +224,31 @@ pub fn load_noted(path: &Path, reading: &Reading) -> Result<(Shapes, Option<Stri
         _ => MOST_CONTOUR_BYTES,
     };
     let bytes = read_bytes(path, "a CSV of x,y or another file of outlines", most)?;
-    let ending = path.extension().and_then(|ending| ending.to_str());
+    parse_named(&bytes, &called(path), reading)
+}
+
+/// [`load_noted`] from the bytes of a file of that name: its ending counts, and messages have it.
+///
+/// # Errors
+///
+/// Whatever [`parse_with`] refuses, by the file's name.
+pub fn parse_named(
+    bytes: &[u8],
+    name: &Path,
+    reading: &Reading,
+) -> Result<(Shapes, Option<String>), IoError> {
+    let ending = name.extension().and_then(|ending| ending.to_str());
     let roi = ending.is_some_and(|ending| ending.eq_ignore_ascii_case("roi"));
     let mut reading = reading.clone();
     if roi && reading.format.is_none() {
         // whatever else it is by its bytes would be a surprise
         reading.format = Some(Format::ImageJ);
     }
-    let found = match format::kind(&bytes) {
-        format::Kind::Picture if reading.format.is_none() => raster::read(&bytes, &reading),
-        _ => parse_with(&bytes, &reading).map(|shapes| (shapes, None)),
+    let found = match format::kind(bytes) {
+        format::Kind::Picture if reading.format.is_none() => raster::read(bytes, &reading),
+        _ => parse_with(bytes, &reading).map(|shapes| (shapes, None)),
     };
-    found.map_err(|error| error.within(&called(path)))
+    found.map_err(|error| error.within(name))
 }
 
 /// [`load`] for a file of one outline.
@@ -245,6 +258,16 @@ pub fn load_noted(path: &Path, reading: &Reading) -> Result<(Shapes, Option<Stri
 /// As [`load`]; a file of more than one.
 pub fn load_one(path: &Path) -> Result<Shape, IoError> {
     one(load(path)?).map_err(|error| error.within(&called(path)))
+}
+
+/// [`load_one`] from the bytes of a file of that name.
+///
+/// # Errors
+///
+/// As [`load_one`].
+pub fn parse_one_named(bytes: &[u8], name: &Path) -> Result<Shape, IoError> {
+    let (shapes, _) = parse_named(bytes, name, &Reading::default())?;
+    one(shapes).map_err(|error| error.within(name))
 }
 
 /// Read outlines from bytes of that format.

@@ -21,10 +21,8 @@ impl Pictures {
             }
         }
         let one = self.one_mut(id)?;
-        (
-            label.trim().clone_into(&mut one.label),
-            class.trim().clone_into(&mut one.class),
-        );
+        label.trim().clone_into(&mut one.label);
+        class.trim().clone_into(&mut one.class);
         if one.label.is_empty() {
             one.label = format!("outline {id}");
         }

@@ -6,52 +6,72 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use io::shapes::{self, Shape};
-use io::{IoError, Picture};
+use io::{Invalid, IoError, Picture, PictureReading};
 
 use crate::SceneError;
 use crate::file::{DampingText, ParameterText, SceneText, ShapeText, SourceText};
 
+/// What files hold that lie in memory, by the names in the text.
+pub(crate) type Held = BTreeMap<String, Vec<u8>>;
+
 /// The files beside a scene, each read once: a pipe can be read no second time, and a hundred snakes may begin alike.
 pub(super) struct Files<'a> {
     folder: &'a Path,
-    contours: RefCell<BTreeMap<PathBuf, Rc<Shape>>>,
-    pictures: RefCell<BTreeMap<PathBuf, Rc<Picture>>>,
+    held: &'a Held,
+    contours: RefCell<BTreeMap<String, Rc<Shape>>>,
+    pictures: RefCell<BTreeMap<String, Rc<Picture>>>,
 }
 
 impl<'a> Files<'a> {
-    pub(super) fn of(folder: &'a Path) -> Self {
+    /// Those in memory, and for all others those of a folder.
+    pub(super) fn of(folder: &'a Path, held: &'a Held) -> Self {
         Self {
             folder,
+            held,
             contours: RefCell::default(),
             pictures: RefCell::default(),
         }
     }
 
-    /// Where a file lies.
-    pub(super) fn path(&self, name: &str) -> PathBuf {
-        self.folder.join(name)
-    }
-
     pub(super) fn contour(&self, name: &str) -> Result<Rc<Shape>, SceneError> {
-        once(&self.contours, self.path(name), shapes::load_one)
+        once(&self.contours, name, || match self.held.get(name) {
+            Some(bytes) => shapes::parse_one_named(bytes, Path::new(name)),
+            None => shapes::load_one(&self.folder.join(name)),
+        })
     }
 
     /// A picture of which every pixel counts.
     pub(super) fn picture(&self, name: &str) -> Result<Rc<Picture>, SceneError> {
-        once(&self.pictures, self.path(name), Picture::load)
+        once(&self.pictures, name, || {
+            self.picture_with(name, Invalid::Refuse)
+        })
+    }
+
+    /// A picture with a word on pixels that are no finite numbers; read anew each time.
+    pub(super) fn picture_with(&self, name: &str, invalid: Invalid) -> Result<Picture, IoError> {
+        let rule = PictureReading {
+            invalid,
+            ..PictureReading::default()
+        };
+        match self.held.get(name) {
+            Some(bytes) => Picture::decode_named(bytes, Path::new(name), &rule),
+            None => Picture::load_as(&self.folder.join(name), &rule),
+        }
     }
 }
 
 fn once<T>(
-    known: &RefCell<BTreeMap<PathBuf, Rc<T>>>,
-    path: PathBuf,
-    load: fn(&Path) -> Result<T, IoError>,
+    known: &RefCell<BTreeMap<String, Rc<T>>>,
+    name: &str,
+    load: impl FnOnce() -> Result<T, IoError>,
 ) -> Result<Rc<T>, SceneError> {
-    if let Some(there) = known.borrow().get(&path) {
+    if let Some(there) = known.borrow().get(name) {
         return Ok(Rc::clone(there));
     }
-    let there = Rc::new(load(&path)?);
-    known.borrow_mut().insert(path, Rc::clone(&there));
+    let there = Rc::new(load()?);
+    known
+        .borrow_mut()
+        .insert(name.to_owned(), Rc::clone(&there));
     Ok(there)
 }
 

@@ -21,6 +21,7 @@ use io::{Invalid, Picture};
 use snake::{Snake, SnakeError, Turning};
 
 use files::Files;
+pub(crate) use files::Held;
 use force::Sight;
 
 pub(crate) use hand::force_now;
@@ -71,10 +72,15 @@ impl Rules {
 /// The version of the format that this program reads.
 const VERSION: u64 = 1;
 
-/// Build the scene of `text`; files it names are looked for in `folder`.
+/// Build the scene of `text`; files it names are those held in memory, and others are looked for in `folder`.
 ///
 /// Everything that costs nothing is checked before the picture is turned into a field.
-pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene, SceneError> {
+pub(crate) fn build(
+    name: &str,
+    text: &SceneText,
+    folder: &Path,
+    held: &Held,
+) -> Result<Scene, SceneError> {
     if text.version.is_some_and(|version| version != VERSION) {
         let message = format!(
             "this program reads {VERSION}, got {}",
@@ -83,7 +89,7 @@ pub(crate) fn build(name: &str, text: &SceneText, folder: &Path) -> Result<Scene
         return Err(SceneError::key("version", message));
     }
     let rules = Rules::of(&text.rules);
-    let files = &Files::of(folder);
+    let files = &Files::of(folder, held);
     let plan = plan::plan(text, rules)?;
     let view = view(&text.view)?;
     let mut body = body::body(text, rules, files)?;
@@ -144,16 +150,14 @@ fn picture(text: &PictureText, files: &Files<'_>) -> Result<Picture, SceneError>
         Some(InvalidText::Refuse) | None => Invalid::Refuse,
     };
     let picture = match (&text.file, &text.shipped, &text.drawn) {
-        (Some(file), None, None) => {
-            Picture::load_with(&files.path(file), invalid).map_err(|error| {
-                let message = error.to_string();
-                if message.ends_with("must be finite numbers") {
-                    let hint = "; invalid = \"mask\" leaves others out";
-                    return SceneError::key("picture", message + hint);
-                }
-                error.into()
-            })
-        }
+        (Some(file), None, None) => files.picture_with(file, invalid).map_err(|error| {
+            let message = error.to_string();
+            if message.ends_with("must be finite numbers") {
+                let hint = "; invalid = \"mask\" leaves others out";
+                return SceneError::key("picture", message + hint);
+            }
+            error.into()
+        }),
         (None, Some(name), None) => catalogue::picture(name),
         (None, None, Some(drawn)) => drawn::picture(drawn),
         (None, None, None) => Err(SceneError::key(
