@@ -7,8 +7,11 @@ use glam::DVec2;
 /// So many steps are looked back.
 pub(crate) const BACK: usize = 10;
 
-/// A way that is still to go of less than this is none. Pixels.
-const WAY: f64 = 0.5;
+/// A way that shrinks by less than this from one half of the past to the other may as well go on for ever.
+const EVEN: f64 = 0.8;
+
+/// Who has moved by less than this share of the way asked about is still.
+const STILL: f64 = 1e-3;
 
 /// The last places of a snake.
 #[derive(Debug, Default)]
@@ -42,8 +45,8 @@ impl Past {
         self.0.iter().map(far).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether it still goes one way, and will go on for more than [`WAY`] if it slows down as it has.
-    pub(crate) fn drifts(&self, points: &[DVec2]) -> bool {
+    /// Whether it still goes one way, and will go on for more than so many pixels if it slows down as it has.
+    pub(crate) fn drifts(&self, points: &[DVec2], way: f64) -> bool {
         let (Some(first), Some(middle)) = (self.0.front(), self.0.get(self.0.len() / 2)) else {
             return false;
         };
@@ -54,12 +57,12 @@ impl Past {
             both += earlier.dot(later);
             most = most.max(later.length());
         }
-        if !(both > 0.0 && before > 0.0) {
+        if !(both > 0.0 && before > 0.0 && most > STILL * way) {
             return false; // it turns back, or does not move
         }
         // the way shrinks by this from one half of the past to the next, and so on
         let ratio = both / before;
-        ratio >= 1.0 || most * ratio / (1.0 - ratio) > WAY
+        ratio >= EVEN || most * ratio / (1.0 - ratio) > way
     }
 }
 
@@ -77,13 +80,13 @@ mod tests {
 
     #[test]
     fn what_creeps_evenly_drifts_and_what_slows_down_or_trembles_does_not() {
-        let (past, here) = along(|i| 0.005 * i);
-        assert!(past.drifts(&here) && (past.nearest(&here) - 0.005).abs() < 1e-12);
+        let (past, here) = along(|i| 0.001 * i);
+        assert!(past.drifts(&here, 0.1) && (past.nearest(&here) - 0.001).abs() < 1e-12);
         let (past, here) = along(|i| 0.5_f64.powf(i));
-        assert!(!past.drifts(&here));
+        assert!(!past.drifts(&here, 0.1));
         let (past, here) = along(|i| 0.3 * (i * 2.0).sin());
-        assert!(!past.drifts(&here));
+        assert!(!past.drifts(&here, 0.1));
         let (past, here) = along(|_| 7.0);
-        assert!(!past.drifts(&here) && past.nearest(&here) == 0.0);
+        assert!(!past.drifts(&here, 0.1) && past.nearest(&here) == 0.0);
     }
 }

@@ -139,8 +139,8 @@ impl<'a, F: Fn(usize, usize, usize) -> f64> Walk<'a, F> {
             steps += 1;
             // ten places are kept, and the eleventh is compared with them
             if steps.is_multiple_of(BACK as u64 + 1) {
-                let near = past.nearest(&self.points) < self.rules.convergence;
-                if near && !past.drifts(&self.points) {
+                let least = self.rules.convergence;
+                if past.nearest(&self.points) < least && !past.drifts(&self.points, least) {
                     stop = Stop::Settled;
                     break;
                 }

@@ -15,29 +15,29 @@ use crate::motion::{Simulation, certified};
 use crate::points::array;
 use crate::waiting::{attended, guarded};
 
-/// A scene as text, and what it means.
+/// A scene as text, and whether it has been changed.
 #[pyclass(frozen, module = "pysnakes._core")]
-pub(crate) struct Scene(SceneText);
+pub(crate) struct Scene(SceneText, bool);
 
 #[pymethods]
 impl Scene {
     /// A scene that comes with the program by its name, one of a file, or one of a text whose files are in a folder.
     #[new]
-    fn new(kind: &str, from: &str, folder: PathBuf) -> PyResult<Self> {
+    fn new(kind: &str, from: &str, folder: PathBuf, name: &str) -> PyResult<Self> {
         let text = match kind {
             "named" => SceneText::named(from),
             "file" => SceneText::load(&PathBuf::from(from)),
-            _ => SceneText::parse("scene", from, &folder),
+            _ => SceneText::parse(name, from, &folder),
         };
         let text = text.map_err(value)?;
         text.scene().map_err(value)?; // what it says must mean something
-        Ok(Self(text))
+        Ok(Self(text, false))
     }
 
-    /// The text.
+    /// The text: as it was read, or as it is with other values.
     #[getter]
-    fn source(&self) -> &str {
-        self.0.source()
+    fn source(&self) -> String {
+        if self.1 { self.0.to_string() } else { self.0.source().to_owned() }
     }
 
     /// Its name and its title.
@@ -54,7 +54,7 @@ impl Scene {
             text.set(key, new).map_err(value)?;
         }
         text.scene().map_err(value)?;
-        Ok(Self(text))
+        Ok(Self(text, true))
     }
 
     /// Everything that moves, at its start.

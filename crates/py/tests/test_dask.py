@@ -79,8 +79,6 @@ def test_a_killed_worker_loses_nothing_and_repeats_no_finished_file(tmp_path, mo
             time.sleep(0.01)
         finished = results.finished()
         begun_before = log.read_text().splitlines()
-        worker = next(iter(client.scheduler_info()["workers"].values()))
-        pid = client.run(os.getpid, workers=[worker["address"] if "address" in worker else worker["name"]]) if False else None
         pid = next(iter(client.run(os.getpid).values()))
         os.kill(pid, signal.SIGKILL)
         done = future.result(timeout=120)

@@ -141,7 +141,7 @@ def frames(count=12):
 
 
 def test_a_disc_is_followed():
-    tracked = list(pysnakes.track(frames(), pysnakes.circle(30, 40, 15)))
+    tracked = list(pysnakes.track(frames(), pysnakes.circle(30, 40, 14)))
     assert [one.frame for one in tracked] == list(range(12))
     for t, one in enumerate(tracked):
         outline = one[1]

@@ -90,9 +90,9 @@ class Scene:
     Made by :meth:`load` or :meth:`parse`; the format is in ``docs/formats.md`` of the project.
     """
 
-    def __init__(self, text: str, folder: str | os.PathLike[str] = ".") -> None:
-        self._given = ("text", text, os.fspath(folder))
-        self._scene = _core.Scene(*self._given)
+    def __init__(self, text: str, folder: str | os.PathLike[str] = ".", name: str = "scene") -> None:
+        self._folder = os.fspath(folder)
+        self._scene = _core.Scene("text", text, self._folder, name)
 
     @classmethod
     def load(cls, name: str | os.PathLike[str]) -> Scene:
@@ -109,10 +109,10 @@ class Scene:
             A name that none has, with the nearest one; a file that cannot be read or makes no sense, by the key.
         """
         name = os.fspath(name)
-        kind = "file" if name.endswith(".toml") or os.sep in name else "named"
+        is_file = name.endswith(".toml") or os.sep in name
         scene = cls.__new__(cls)
-        scene._given = (kind, name, ".")
-        scene._scene = _core.Scene(*scene._given)
+        scene._folder = os.path.dirname(os.path.abspath(name)) if is_file else "."
+        scene._scene = _core.Scene("file" if is_file else "named", name, scene._folder, name)
         return scene
 
     @classmethod
@@ -121,8 +121,7 @@ class Scene:
         return cls(text, folder)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        folder = self._given[2] if self._given[0] == "text" else "."
-        return (type(self), (self.source, folder))
+        return (type(self), (self.source, self._folder, self.name))
 
     def __repr__(self) -> str:
         name, title = self._scene.titles
@@ -159,7 +158,7 @@ class Scene:
         texts = [(key.replace("__", ".").replace("_", "-"), _toml(value)) for key, value in values.items()]
         changed = type(self).__new__(type(self))
         changed._scene = self._scene.with_values(texts)
-        changed._given = ("text", changed._scene.source, self._given[2])
+        changed._folder = self._folder
         return changed
 
     def run(self, observer: Callable[[float, int, Floats], object] | None = None, every: int = 1) -> Record:

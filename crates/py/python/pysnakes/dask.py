@@ -144,7 +144,12 @@ def _fit_block(
         return []
     prepared, found = Prepared(pixels, **options), []
     for label, start in given:
-        outline = prepared.fit(start)
+        try:
+            outline = prepared.fit(start)
+        except ValueError:
+            if isinstance(starts, np.ndarray):
+                continue  # a sliver that encloses nothing: the rest of the object lies in another block
+            raise
         moved = dataclasses.replace(outline, points=outline.points + corner, shape=shape)
         found.append(BlockOutline(moved, block, label, seen))
     return found
