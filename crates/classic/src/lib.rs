@@ -19,8 +19,8 @@
 //!
 //! Points `v` of index `i` minimise `∫ α |v'|² + β |v''|² − E(v)` with `E` the weighted sum of grey levels and of
 //! the size of their Sobel gradient. A step is implicit in the elastic part and explicit in the picture's
-//! (\[kass88\] Eq. 14 to 19), and its length is limited by a hyperbolic tangent. Between pixels `E` is the quadratic spline
-//! through them. Everything is counted in points, not in arc length: α and β mean another stiffness for another number
+//! (\[kass88\] Eq. 14 to 19), and its length is limited by a hyperbolic tangent. Between pixels `E` is the quadratic
+//! spline through them. Everything is counted in points, not in arc length: α and β mean another stiffness for another number
 //! of points. [`fit`](https://docs.rs/snakes) has none of these bounds; this crate is here for those who have their
 //! parameters.
 //!

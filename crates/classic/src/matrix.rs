@@ -8,7 +8,7 @@ use crate::{Border, ClassicError, Ends, Rules};
 /// Solves `(A + γ) x = b`.
 #[derive(Debug)]
 pub(crate) enum Elastic {
-    Closed(Factor),
+    Closed(Box<Factor>),
     Open(Rows),
 }
 
@@ -20,7 +20,9 @@ impl Elastic {
         } = *rules;
         let unstable = ClassicError::Unstable { alpha, beta, gamma };
         match rules.ends {
-            Ends::Periodic => closed(rules, points).map(Self::Closed).ok_or(unstable),
+            Ends::Periodic => closed(rules, points)
+                .map(|factor| Self::Closed(Box::new(factor)))
+                .ok_or(unstable),
             Ends::Open(head, tail) => Rows::new(rules, points, head, tail)
                 .map(Self::Open)
                 .ok_or(unstable),

@@ -70,7 +70,7 @@ pub fn settle<F: Fn(usize, usize, usize) -> f64>(
         let [x, y] = start[index].to_array();
         return Err(ClassicError::Point { index, x, y });
     }
-    let first = Walk::new(picture, start, rules)?.to_the_end(asked)?;
+    let first = Walk::new(picture, start, rules)?.finish(asked)?;
     if !(closed && first.collapsed && first.stop != Stop::Asked) {
         return Ok(first);
     }
@@ -81,7 +81,7 @@ pub fn settle<F: Fn(usize, usize, usize) -> f64>(
             break;
         }
         dense = ring(&dense).flat_map(|(a, b)| [a, a.midpoint(b)]).collect();
-        let mut found = Walk::new(picture, &dense, rules)?.to_the_end(asked)?;
+        let mut found = Walk::new(picture, &dense, rules)?.finish(asked)?;
         if !found.collapsed || found.stop == Stop::Asked {
             found.between = (1 << doubled) - 1;
             found.points = found.points.into_iter().step_by(1 << doubled).collect();
@@ -131,7 +131,7 @@ impl<'a, F: Fn(usize, usize, usize) -> f64> Walk<'a, F> {
         })
     }
 
-    fn to_the_end(mut self, asked: &dyn Fn() -> bool) -> Result<Settled, ClassicError> {
+    fn finish(mut self, asked: &dyn Fn() -> bool) -> Result<Settled, ClassicError> {
         let (mut past, mut stop) = (Past::default(), Stop::Limit);
         let mut steps = 0;
         while steps < self.rules.max_num_iter {

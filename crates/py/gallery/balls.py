@@ -1,7 +1,7 @@
 """Balls that hit a wall.
 
-Three balls of the same mass, from soft to hard, in the report's world of two walls and gravity. A scene is a text; a key
-is changed by its name, and a simulation is stepped with a callback between.
+Three balls of the same mass, from soft to hard, in the report's world of two walls and gravity. A simulation is stepped
+with a callback between.
 """
 
 import matplotlib.pyplot as plt
@@ -14,7 +14,7 @@ squeezed = []
 for name, axes in zip(["very-soft-ball", "soft-ball", "hard-ball"], all_axes):
     simulation = pysnakes.Scene.load(name).simulation()
     shapes: list[np.ndarray] = []
-    simulation.run(1200, lambda now: shapes.append(now.points), every=60)
+    simulation.run(7000, lambda now: shapes.append(now.points), every=350)
     for share, points in zip(np.linspace(0, 1, len(shapes)), shapes):
         ring = np.concatenate([points, points[:1]])
         axes.plot(*ring.T, color=plt.get_cmap("viridis")(share), linewidth=0.8)
@@ -22,6 +22,8 @@ for name, axes in zip(["very-soft-ball", "soft-ball", "hard-ball"], all_axes):
     squeezed.append(min(areas) / max(areas))
     axes.set_title(f"{name}: down to {100 * squeezed[-1]:.0f} % of its area", fontsize=9)
     axes.set_aspect("equal")
+    axes.axhline(0, color="black")
+    axes.axvline(0, color="black")
 figure.tight_layout()
 
 assert squeezed == sorted(squeezed)  # the harder, the less it is squeezed

@@ -1,13 +1,14 @@
 """An image in blocks.
 
-A dask array stands for an image that no memory holds. Each block is seen with some pixels of its neighbors; labels that a
-network gave block by block, numbered anew in each, are the starts. An object across a border is found from both sides,
-and what lies on each other is one.
+A dask array stands for an image that no memory holds. Each block is seen with some pixels of its neighbors. Labels that
+a network gave block by block, numbered anew in each, are the starts. An object across a border is found from both
+sides, and what lies on each other is one.
 """
 
 import dask.array
 import matplotlib.pyplot as plt
 import numpy as np
+from skimage.measure import label
 
 import pysnakes.dask
 
@@ -20,15 +21,13 @@ image = 60 + 110 * inside + noise.normal(0, 5, inside.shape)
 pixels = dask.array.from_array(image.astype(np.float32), chunks=(100, 100))
 
 
-def rough(block: np.ndarray) -> np.ndarray:
-    """What a network would give for a block: connected parts of what is bright, by rows and columns of a grid."""
-    from skimage.measure import label
-
-    return np.asarray(label(block > 130), dtype=np.int32)
+def numbered(block: np.ndarray) -> np.ndarray:
+    """The connected parts of a block, numbered from 1."""
+    return np.asarray(label(block), dtype=np.int32)
 
 
-smooth = dask.array.from_array(inside > 0.5, chunks=(100, 100))
-labels = smooth.map_blocks(lambda block: rough(200.0 * block), dtype=np.int32)
+seen_by_network = dask.array.from_array(inside > 0.5, chunks=(100, 100))
+labels = seen_by_network.map_blocks(numbered, dtype=np.int32)
 found = pysnakes.dask.fit_blocks(pixels, labels, depth=40).compute(scheduler="threads")
 objects = pysnakes.dask.stitch(found)
 painted = np.asarray(pysnakes.dask.labels(objects, pixels.shape, chunks=pixels.chunks))

@@ -11,7 +11,6 @@ import pysnakes
 
 circle = pysnakes.circle(0, 0, 10)
 oval = pysnakes.ellipse(0, 0, 12, 8)
-material = {"rest": circle, "tether": 0.2, "tension": 2.0}
 slowest = pysnakes.certificate(circle, tether=0.2, tension=2.0)
 stiffness = float(slowest.frequency[slowest.frequency > 0].min()) ** 2
 critical = pysnakes.critical_damping(1.0, stiffness)
@@ -21,7 +20,8 @@ figure, axes = plt.subplots(figsize=(6, 3.5))
 left = {}
 for factor in (0.2, 1.0, 5.0):
     damping = factor * critical
-    width = pysnakes.ring(oval, times, damping=damping, **material)[:, 0, 0] - 10.0
+    motion = pysnakes.ring(oval, times, rest=circle, tether=0.2, tension=2.0, damping=damping)
+    width = motion[:, 0, 0] - 10.0
     word = pysnakes.regime(1.0, damping, stiffness)
     axes.plot(times, width, label=f"{factor:g} of critical: {word}")
     left[word] = np.abs(width[60:]).max()

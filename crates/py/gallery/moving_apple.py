@@ -1,7 +1,7 @@
 """A snake on its way to the top of the apple.
 
-The scene is the report's: an open snake is drawn across, the edge pulls, its mass carries it past, damping calms it. The
-observer is called after every step with the time, the number of steps and the nodes; here it keeps some of them.
+The scene is the report's: an open snake is drawn across the stem, the edge pulls, its mass carries it past, damping
+calms it. The observer is called with the time, the number of steps and the nodes; here it keeps them.
 """
 
 import matplotlib.pyplot as plt

@@ -50,7 +50,8 @@ def main() -> None:
         began = time.perf_counter()
         figure = runpy.run_path(str(path))["figure"]
         if write:
-            figure.savefig(PAGES / f"{path.stem}.png", dpi=72, pil_kwargs={"optimize": True}, metadata={"Software": None})
+            picture = PAGES / f"{path.stem}.png"
+            figure.savefig(picture, dpi=72, pil_kwargs={"optimize": True}, metadata={"Software": None})
             (PAGES / f"{path.stem}.md").write_text(page(path))
         else:
             committed = PAGES / f"{path.stem}.md"

@@ -1,7 +1,7 @@
 """An outline followed through frames.
 
-A bright blob drifts, turns and pulses, and passes behind a bar. Where it is hidden it flies on as it was going, and is
-found again. Frames are taken one by one from any iterable.
+A bright blob drifts, turns and pulses, and passes behind a bar. Where part of it is hidden the rest goes on as the
+shape that is remembered. Frames are taken one by one from any iterable.
 """
 
 from collections.abc import Iterator
@@ -16,7 +16,7 @@ noise = np.random.default_rng(1)
 
 
 def radius(t: int, angle: np.ndarray) -> np.ndarray:
-    return 17 + 2.5 * np.cos(3 * (angle - 0.05 * t)) + np.sin(0.3 * t)
+    return np.asarray(17 + 2.5 * np.cos(3 * (angle - 0.05 * t)) + np.sin(0.3 * t))
 
 
 def frames() -> Iterator[np.ndarray]:

@@ -37,13 +37,21 @@ pub(crate) fn active_contour<'py>(
         max_px_move,
         max_num_iter,
         convergence,
-        ends: Ends::named(ends).ok_or_else(|| value(format!("boundary_condition: unknown, got {ends:?}")))?,
+        ends: Ends::named(ends)
+            .ok_or_else(|| value(format!("boundary_condition: unknown, got {ends:?}")))?,
     };
     with_samples!(image, |view, owner| {
         let settled = attended(py, move |stop| {
             let (height, width, channels) = view.dim();
-            let level = |row: usize, column: usize, channel: usize| unit * view[[row, column, channel]].number();
-            let picture = Picture { height, width, channels, level };
+            let level = |row: usize, column: usize, channel: usize| {
+                unit * view[[row, column, channel]].number()
+            };
+            let picture = Picture {
+                height,
+                width,
+                channels,
+                level,
+            };
             let settled = settle(&picture, &start, &rules, &|| stop.load(Ordering::Relaxed));
             drop(owner);
             settled
@@ -61,5 +69,11 @@ fn told<'py>(py: Python<'py>, settled: &Settled) -> Found<'py> {
         Stop::Limit => "limit",
         Stop::Asked => "stopped",
     };
-    (array(py, &settled.points), stop, settled.steps, settled.between, settled.collapsed)
+    (
+        array(py, &settled.points),
+        stop,
+        settled.steps,
+        settled.between,
+        settled.collapsed,
+    )
 }

@@ -6,10 +6,10 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
+use fit::{Evidence, Method, in_order};
 use numpy::{IntoPyArray, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use fit::{Evidence, Method, in_order};
 use snakes::{Contour, Fit, FitError};
 
 use crate::errors::value;
@@ -38,7 +38,10 @@ impl Prepared {
         start: PyReadonlyArray2<'py, f64>,
         closed: bool,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let start = Contour { points: points(&start)?, closed };
+        let start = Contour {
+            points: points(&start)?,
+            closed,
+        };
         let prepared = self.0.clone();
         let found = attended(py, move |stop| fit(&prepared, &start, stop))?;
         told(py, &found.map_err(value)?)
@@ -67,10 +70,22 @@ fn told<'py>(py: Python<'py>, fit: &Fit) -> PyResult<Bound<'py, PyDict>> {
     out.set_item("closed", fit.contour.closed)?;
     let nodes = &fit.nodes;
     let numbers = |values: Vec<f64>| values.into_pyarray(py);
-    out.set_item("strength", numbers(nodes.iter().map(|node| node.strength).collect()))?;
-    out.set_item("slope", numbers(nodes.iter().map(|node| node.slope).collect()))?;
-    out.set_item("error", numbers(or_nan(nodes.iter().map(|node| node.error))))?;
-    out.set_item("offset", numbers(or_nan(nodes.iter().map(|node| node.offset))))?;
+    out.set_item(
+        "strength",
+        numbers(nodes.iter().map(|node| node.strength).collect()),
+    )?;
+    out.set_item(
+        "slope",
+        numbers(nodes.iter().map(|node| node.slope).collect()),
+    )?;
+    out.set_item(
+        "error",
+        numbers(or_nan(nodes.iter().map(|node| node.error))),
+    )?;
+    out.set_item(
+        "offset",
+        numbers(or_nan(nodes.iter().map(|node| node.offset))),
+    )?;
     let normals: Vec<_> = nodes.iter().map(|node| node.normal).collect();
     out.set_item("normal", array(py, &normals))?;
     let held: Vec<bool> = nodes.iter().map(|node| node.held).collect();
@@ -87,6 +102,9 @@ fn told<'py>(py: Python<'py>, fit: &Fit) -> PyResult<Bound<'py, PyDict>> {
     out.set_item("explanation", fit.chosen.to_string())?;
     Ok(out)
 }
+
+/// What was found, or the words of a refusal.
+type Told<'py> = (Option<Bound<'py, PyDict>>, Option<String>);
 
 type Answer = PyResult<Option<Result<Fit, FitError>>>;
 
@@ -116,10 +134,19 @@ impl Batch {
         threads: usize,
     ) -> PyResult<Self> {
         let options = options(keywords)?;
-        let images: Vec<snakes::Image> = images.iter().map(|image| image.get().image.clone()).collect();
+        let images: Vec<snakes::Image> = images
+            .iter()
+            .map(|image| image.get().image.clone())
+            .collect();
         let mut jobs = Vec::with_capacity(starts.len());
         for (start, image) in starts.iter().zip(which) {
-            jobs.push((image, Contour { points: points(start)?, closed }));
+            jobs.push((
+                image,
+                Contour {
+                    points: points(start)?,
+                    closed,
+                },
+            ));
         }
         // an image that has one start is made ready by the thread that fits it, one with several once for all
         let mut uses = vec![0_usize; images.len()];
@@ -139,7 +166,9 @@ impl Batch {
                 }
                 guarded(|| {
                     let fit = match &shared[*image] {
-                        Some(prepared) => prepared.clone().and_then(|prepared| fit(&prepared, start, &told)),
+                        Some(prepared) => prepared
+                            .clone()
+                            .and_then(|prepared| fit(&prepared, start, &told)),
                         None => snakes::Prepared::of(&images[*image], &options)
                             .and_then(|prepared| fit(&prepared, start, &told)),
                     };
@@ -150,7 +179,9 @@ impl Batch {
                 let _ = send.send(answer); // nobody may want it any more
             });
         };
-        std::thread::Builder::new().name("pysnakes".to_owned()).spawn(work)?;
+        std::thread::Builder::new()
+            .name("pysnakes".to_owned())
+            .spawn(work)?;
         let answers = Mutex::new(answers);
         Ok(Self { answers, stop })
     }
@@ -160,7 +191,7 @@ impl Batch {
     }
 
     /// The next answer: what was found, or the words of a refusal.
-    fn __next__<'py>(&self, py: Python<'py>) -> PyResult<Option<(Option<Bound<'py, PyDict>>, Option<String>)>> {
+    fn __next__<'py>(&self, py: Python<'py>) -> PyResult<Option<Told<'py>>> {
         let answer = loop {
             let waited = py.detach(|| {
                 let answers = self.answers.lock().unwrap_or_else(PoisonError::into_inner);

@@ -1,13 +1,14 @@
 //! Force fields of an image.
 
+use fit::force::{
+    ColorEdge, Computing, Distance, Edge, Gvf, ImageForceKind, Line, Scales, Sight, Termination,
+    Vfc,
+};
 use numpy::{IntoPyArray, PyArray2, PyArray3};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use snakes::field::{Falloff, FlowRule, Line as Shade};
-use fit::force::{
-    ColorEdge, Computing, Distance, Edge, Gvf, ImageForceKind, Line, Scales, Sight, Termination, Vfc,
-};
 
 use crate::errors::value;
 use crate::images::Image;
@@ -31,7 +32,10 @@ pub(crate) fn force_field<'py>(
     let made = made.ok_or_else(|| value("kind: this force is no field of the image alone"))?;
     let (x, y) = made.field.components();
     let both = ndarray::stack(ndarray::Axis(2), &[x.view(), y.view()]).map_err(value)?;
-    Ok((both.into_pyarray(py), made.energy.map(|energy| energy.into_pyarray(py))))
+    Ok((
+        both.into_pyarray(py),
+        made.energy.map(|energy| energy.into_pyarray(py)),
+    ))
 }
 
 /// What of the keywords has been read.
@@ -61,7 +65,10 @@ impl Keywords<'_, '_> {
             let key: String = key.extract()?;
             if !self.known.contains(&key.as_str()) {
                 let known = self.known.join(", ");
-                let message = format!("{key} is no keyword of kind {:?}; there are {known}", self.kind);
+                let message = format!(
+                    "{key} is no keyword of kind {:?}; there are {known}",
+                    self.kind
+                );
                 return Err(PyTypeError::new_err(message));
             }
         }
@@ -70,7 +77,11 @@ impl Keywords<'_, '_> {
 }
 
 fn chosen(kind: &str, given: &Bound<'_, PyDict>) -> PyResult<ImageForceKind> {
-    let mut from = Keywords { kind, given, known: Vec::new() };
+    let mut from = Keywords {
+        kind,
+        given,
+        known: Vec::new(),
+    };
     let chosen = match kind {
         "edge" => {
             let usual = Edge::default();
@@ -103,7 +114,11 @@ fn chosen(kind: &str, given: &Bound<'_, PyDict>) -> PyResult<ImageForceKind> {
                 shade: match shade.as_str() {
                     "bright" => Shade::Bright,
                     "dark" => Shade::Dark,
-                    other => return Err(value(format!("shade must be 'bright' or 'dark', got {other:?}"))),
+                    other => {
+                        return Err(value(format!(
+                            "shade must be 'bright' or 'dark', got {other:?}"
+                        )));
+                    }
                 },
             })
         }

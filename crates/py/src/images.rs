@@ -34,7 +34,8 @@ samples!(u8: false, u16: false, f32: true, f64: true);
 /// The memory of an array of Python, for as long as `owner` is kept beside it.
 ///
 /// Another thread of Python may write into the array meanwhile, as with any library that releases the lock; then
-/// numbers are read that nobody meant, and nothing worse: any bits are a number of each kind. Truth values come as bytes.
+/// numbers are read that nobody meant, and nothing worse: any bits are a number of each kind. Truth values come as
+/// bytes.
 fn lent<T: Element, D: Dimension>(array: &PyReadonlyArray<'_, T, D>) -> ArrayView<'static, T, D> {
     #[allow(
         unsafe_code,
@@ -110,7 +111,8 @@ impl<T: Sample> Pixels for Colors<T> {
     fn levels(&self) -> &Grid {
         let (width, height) = self.size();
         let level = |(y, x)| self.level(x, y);
-        self.levels.get_or_init(|| Grid::from_shape_fn((height, width), level))
+        self.levels
+            .get_or_init(|| Grid::from_shape_fn((height, width), level))
     }
 
     fn level(&self, x: usize, y: usize) -> f64 {
@@ -185,14 +187,22 @@ impl Image {
         };
         let view = lent(&read);
         let owner = array.clone().unbind();
-        let seen = view.clone();
-        let (odd, mask) = attended(array.py(), move |_| (odd(&seen, mask.as_ref()), mask))?;
+        // the owner goes along: this thread may be interrupted before the other has read all
+        let looked = attended(array.py(), move |_| {
+            (odd(&view, mask.as_ref()), mask, owner)
+        })?;
+        let (odd, mask, owner) = looked;
         if let Some(odd) = odd {
             return Err(refused(odd));
         }
         let address = view.as_ptr() as usize;
         let levels = OnceLock::new();
-        let pixels = Grey { view, _owner: owner, unit, levels };
+        let pixels = Grey {
+            view,
+            _owner: owner,
+            unit,
+            levels,
+        };
         Self::of(snakes::Image::of(Arc::new(pixels)), address, mask).map(Some)
     }
 
@@ -206,14 +216,22 @@ impl Image {
         };
         let view = lent(&read);
         let owner = array.clone().unbind();
-        let seen = view.clone();
-        let (odd, mask) = attended(array.py(), move |_| (odd(&seen, mask.as_ref()), mask))?;
+        // the owner goes along: this thread may be interrupted before the other has read all
+        let looked = attended(array.py(), move |_| {
+            (odd(&view, mask.as_ref()), mask, owner)
+        })?;
+        let (odd, mask, owner) = looked;
         if let Some(odd) = odd {
             return Err(refused(odd));
         }
         let address = view.as_ptr() as usize;
         let levels = OnceLock::new();
-        let pixels = Colors { view, _owner: owner, unit, levels };
+        let pixels = Colors {
+            view,
+            _owner: owner,
+            unit,
+            levels,
+        };
         Self::of(snakes::Image::of(Arc::new(pixels)), address, mask).map(Some)
     }
 
@@ -231,7 +249,11 @@ impl Image {
     /// An array of two axes, or three with the channels last; `unit`: the level of a pixel of 1.
     #[new]
     #[pyo3(signature = (array, unit, mask = None))]
-    fn new(array: &Bound<'_, PyAny>, unit: f64, mask: Option<PyReadonlyArray2<'_, bool>>) -> PyResult<Self> {
+    fn new(
+        array: &Bound<'_, PyAny>,
+        unit: f64,
+        mask: Option<PyReadonlyArray2<'_, bool>>,
+    ) -> PyResult<Self> {
         let mask = mask.map(|mask| mask.as_array().to_owned());
         macro_rules! first_of {
             ($($make:ident: $kind:ty),*) => {
@@ -281,7 +303,9 @@ macro_rules! with_samples {
 pub(crate) use with_samples;
 
 /// An array of this kind with an axis of channels, and what keeps it alive.
-pub(crate) fn channels<T: Sample>(array: &Bound<'_, PyAny>) -> Option<(ArrayView3<'static, T>, Py<PyAny>)> {
+pub(crate) fn channels<T: Sample>(
+    array: &Bound<'_, PyAny>,
+) -> Option<(ArrayView3<'static, T>, Py<PyAny>)> {
     let owner = array.clone().unbind();
     if let Ok(read) = array.extract::<PyReadonlyArray2<'_, T>>() {
         return Some((lent(&read).insert_axis(ndarray::Axis(2)), owner));

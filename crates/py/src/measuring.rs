@@ -14,7 +14,10 @@ use crate::points::{array, points};
 
 /// Area, axes and so on.
 #[pyfunction]
-pub(crate) fn measures<'py>(py: Python<'py>, outline: PyReadonlyArray2<'py, f64>) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn measures<'py>(
+    py: Python<'py>,
+    outline: PyReadonlyArray2<'py, f64>,
+) -> PyResult<Bound<'py, PyDict>> {
     let outline = points(&outline)?;
     let measures = py.detach(|| Measures::of(&[&outline])).map_err(value)?;
     let out = PyDict::new(py);
@@ -30,7 +33,11 @@ pub(crate) fn measures<'py>(py: Python<'py>, outline: PyReadonlyArray2<'py, f64>
     ] {
         out.set_item(name, number)?;
     }
-    for (name, place) in [("centroid", measures.centroid), ("low", measures.low), ("high", measures.high)] {
+    for (name, place) in [
+        ("centroid", measures.centroid),
+        ("low", measures.low),
+        ("high", measures.high),
+    ] {
         out.set_item(name, (place.x, place.y))?;
     }
     Ok(out)
@@ -50,7 +57,10 @@ pub(crate) fn filled<'py>(
 
 /// The outlines of a mask along the borders of its pixels.
 #[pyfunction]
-pub(crate) fn border<'py>(py: Python<'py>, mask: PyReadonlyArray2<'py, bool>) -> PyResult<Bound<'py, PyList>> {
+pub(crate) fn border<'py>(
+    py: Python<'py>,
+    mask: PyReadonlyArray2<'py, bool>,
+) -> PyResult<Bound<'py, PyList>> {
     let mask = mask.as_array().to_owned();
     let rings = py.detach(|| score::border(&mask));
     PyList::new(py, rings.iter().map(|ring| array(py, ring)))
@@ -64,7 +74,8 @@ pub(crate) fn written<'py>(
     format: &str,
     size: (usize, usize),
 ) -> PyResult<Bound<'py, PyBytes>> {
-    let format = Format::named(format).ok_or_else(|| value(format!("no format of outlines is called {format:?}")))?;
+    let format = Format::named(format)
+        .ok_or_else(|| value(format!("no format of outlines is called {format:?}")))?;
     let mut all = Vec::new();
     for (outline, closed, id) in &outlines {
         let mut shape = Shape::curve(points(outline)?, Some(*closed));
@@ -72,8 +83,14 @@ pub(crate) fn written<'py>(
         all.push(shape);
     }
     let (width, height) = size;
-    let context = Context { width, height, ..Context::default() };
-    let bytes = py.detach(|| shapes::write(&all, format, &context)).map_err(value)?;
+    let context = Context {
+        width,
+        height,
+        ..Context::default()
+    };
+    let bytes = py
+        .detach(|| shapes::write(&all, format, &context))
+        .map_err(value)?;
     Ok(PyBytes::new(py, &bytes))
 }
 
@@ -84,7 +101,11 @@ pub(crate) fn load_outlines(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_,
     let list = PyList::empty(py);
     for shape in &shapes {
         for ring in &shape.rings {
-            list.append((array(py, ring), shape.closed.unwrap_or(true), shape.id.clone()))?;
+            list.append((
+                array(py, ring),
+                shape.closed.unwrap_or(true),
+                shape.id.clone(),
+            ))?;
         }
     }
     Ok(list)

@@ -66,7 +66,12 @@ impl Simulation {
         self.with(|simulation| {
             for member in simulation.members() {
                 let state = member.state();
-                list.append((member.id(), member.is_closed(), array(py, &state.x), array(py, &state.v)))?;
+                list.append((
+                    member.id(),
+                    member.is_closed(),
+                    array(py, &state.x),
+                    array(py, &state.v),
+                ))?;
             }
             Ok(list)
         })
@@ -78,7 +83,8 @@ impl Simulation {
         self.with(|simulation| {
             let energies = simulation.energies();
             let orders = simulation.orders();
-            let names = snakes::snake::Energies::names_with(orders, snakes::Simulation::FORCES.into_iter());
+            let names =
+                snakes::snake::Energies::names_with(orders, snakes::Simulation::FORCES.into_iter());
             for (name, number) in names.into_iter().zip(energies.values()) {
                 out.set_item(name, number)?;
             }
@@ -89,8 +95,13 @@ impl Simulation {
 
     /// Hold nodes of a curve where they are, or let them go.
     fn hold(&self, curve: usize, nodes: Vec<usize>, held: bool) -> PyResult<()> {
-        let edit = if held { Edit::Hold(nodes) } else { Edit::Release(nodes) };
-        self.with(|simulation| simulation.edit(curve, edit)).map_err(value)
+        let edit = if held {
+            Edit::Hold(nodes)
+        } else {
+            Edit::Release(nodes)
+        };
+        self.with(|simulation| simulation.edit(curve, edit))
+            .map_err(value)
     }
 
     /// The same simulation, to be gone on with by itself.
@@ -102,7 +113,11 @@ impl Simulation {
 /// A lone curve without a world. `numbers`: tether, tension, rigidity, mass, damping.
 fn alone(rest: &[snakes::Point], closed: bool, numbers: [f64; 5]) -> PyResult<Snake> {
     let [tether, tension, rigidity, mass, damping] = numbers;
-    let topology = if closed { Topology::Closed } else { Topology::open(End::Free) };
+    let topology = if closed {
+        Topology::Closed
+    } else {
+        Topology::open(End::Free)
+    };
     let body = Body::of(rest, topology, mass)
         .map_err(value)?
         .with_material(Material::uniform(tether, tension, rigidity))
@@ -131,8 +146,8 @@ pub(crate) fn ring<'py>(
             let mut at = begun.x.clone();
             if t > 0.0 {
                 let stepping = Stepping::of(Scheme::Exact, t);
-                let mut motion =
-                    snakes::Simulation::of(snake.clone(), begun.clone(), stepping).map_err(value)?;
+                let mut motion = snakes::Simulation::of(snake.clone(), begun.clone(), stepping)
+                    .map_err(value)?;
                 let _ = motion.step().map_err(value)?;
                 at.clone_from(&motion.members()[0].state().x);
             }
@@ -147,7 +162,10 @@ pub(crate) fn ring<'py>(
 }
 
 /// What a snake's parameters say of its motion.
-pub(crate) fn certified<'py>(py: Python<'py>, certificate: &Certificate) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn certified<'py>(
+    py: Python<'py>,
+    certificate: &Certificate,
+) -> PyResult<Bound<'py, PyDict>> {
     let out = PyDict::new(py);
     out.set_item("nodes", certificate.nodes)?;
     out.set_item("elastic", certificate.elastic)?;
@@ -164,7 +182,10 @@ pub(crate) fn certified<'py>(py: Python<'py>, certificate: &Certificate) -> PyRe
         column.into_pyarray(py)
     };
     out.set_item("frequency", column(|mode| mode.frequency))?;
-    out.set_item("damping_ratio", column(snakes::snake::ModeOfMotion::damping_ratio))?;
+    out.set_item(
+        "damping_ratio",
+        column(snakes::snake::ModeOfMotion::damping_ratio),
+    )?;
     out.set_item("decay", column(snakes::snake::ModeOfMotion::decay))?;
     out.set_item("time_to_rest", certificate.time_to_rest())?;
     out.set_item("complete", certificate.complete)?;

@@ -1,12 +1,12 @@
 //! Keywords of Python as options of a fit.
 
+use fit::{Method, Nodes, Step};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene::ForceChoice;
 use snakes::Options;
 use snakes::field::Polarity;
-use fit::{Method, Nodes, Step};
 
 use crate::errors::value;
 
@@ -31,16 +31,22 @@ pub(crate) fn options(keywords: &Bound<'_, PyDict>) -> PyResult<Options> {
                 .map_err(|_| PyTypeError::new_err(format!("{key} must be a word, got {given}")))
         };
         let count = || {
-            given
-                .extract::<u64>()
-                .map_err(|_| PyTypeError::new_err(format!("{key} must be a whole number of at least 0, got {given}")))
+            given.extract::<u64>().map_err(|_| {
+                PyTypeError::new_err(format!(
+                    "{key} must be a whole number of at least 0, got {given}"
+                ))
+            })
         };
         match key.as_str() {
             "method" => {
                 options.method = match word()?.as_str() {
                     "search" => Method::Search,
                     "motion" => Method::Motion,
-                    other => return Err(value(format!("method must be 'search' or 'motion', got {other:?}"))),
+                    other => {
+                        return Err(value(format!(
+                            "method must be 'search' or 'motion', got {other:?}"
+                        )));
+                    }
                 };
                 chosen = true;
             }
@@ -57,11 +63,12 @@ pub(crate) fn options(keywords: &Bound<'_, PyDict>) -> PyResult<Options> {
             "steps" => options.steps = count()?,
             "polarity" => options.polarity = polarity(&word()?)?,
             "forces" => {
-                let texts: Vec<String> = given
-                    .extract()
-                    .map_err(|_| PyTypeError::new_err("forces must be a list of words such as 'gvf:0.5'"))?;
+                let texts: Vec<String> = given.extract().map_err(|_| {
+                    PyTypeError::new_err("forces must be a list of words such as 'gvf:0.5'")
+                })?;
                 for text in &texts {
-                    let force = ForceChoice::parse(text).map_err(|error| value(format!("forces: {error}")))?;
+                    let force = ForceChoice::parse(text)
+                        .map_err(|error| value(format!("forces: {error}")))?;
                     options.forces.push(force.for_fit());
                 }
             }

@@ -12,7 +12,11 @@ pub(crate) fn points(array: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Point>> 
         let message = format!("points must have 2 columns, x and y, got {}", view.ncols());
         return Err(crate::errors::value(message));
     }
-    Ok(view.rows().into_iter().map(|row| Point::new(row[0], row[1])).collect())
+    Ok(view
+        .rows()
+        .into_iter()
+        .map(|row| Point::new(row[0], row[1]))
+        .collect())
 }
 
 /// An array of two columns, x and y.
@@ -22,5 +26,8 @@ pub(crate) fn array<'py>(py: Python<'py>, points: &[Point]) -> Bound<'py, PyArra
 
 /// Numbers, NaN where there is none.
 pub(crate) fn or_nan(values: impl IntoIterator<Item = Option<f64>>) -> Vec<f64> {
-    values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()
+    values
+        .into_iter()
+        .map(|value| value.unwrap_or(f64::NAN))
+        .collect()
 }

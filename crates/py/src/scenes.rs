@@ -37,7 +37,11 @@ impl Scene {
     /// The text: as it was read, or as it is with other values.
     #[getter]
     fn source(&self) -> String {
-        if self.1 { self.0.to_string() } else { self.0.source().to_owned() }
+        if self.1 {
+            self.0.to_string()
+        } else {
+            self.0.source().to_owned()
+        }
     }
 
     /// Its name and its title.
@@ -60,7 +64,9 @@ impl Scene {
     /// Everything that moves, at its start.
     fn simulation(&self, py: Python<'_>) -> PyResult<Simulation> {
         let text = self.0.clone();
-        let made = attended(py, move |_| text.scene().and_then(|scene| scene.simulation()))?;
+        let made = attended(py, move |_| {
+            text.scene().and_then(|scene| scene.simulation())
+        })?;
         made.map(Simulation::of).map_err(value)
     }
 
@@ -76,13 +82,20 @@ impl Scene {
 
     /// Run it. After every so many steps `observer` is called with the time, the steps made and the nodes of the
     /// first curve; it ends the run by returning False.
-    fn run<'py>(&self, py: Python<'py>, observer: Option<Py<PyAny>>, every: u64) -> PyResult<Bound<'py, PyDict>> {
+    fn run<'py>(
+        &self,
+        py: Python<'py>,
+        observer: Option<Py<PyAny>>,
+        every: u64,
+    ) -> PyResult<Bound<'py, PyDict>> {
         let scene = self.0.scene().map_err(value)?;
         let (mut raised, mut asked) = (None, Instant::now());
         let record = py.detach(|| {
             guarded(|| {
                 scene.run(&mut |state| {
-                    let due = observer.as_ref().filter(|_| state.step.is_multiple_of(every));
+                    let due = observer
+                        .as_ref()
+                        .filter(|_| state.step.is_multiple_of(every));
                     if due.is_none() && asked.elapsed() < Duration::from_millis(20) {
                         return ControlFlow::Continue(());
                     }
@@ -90,8 +103,12 @@ impl Scene {
                         py.check_signals()?;
                         asked = Instant::now();
                         let Some(observer) = due else { return Ok(true) };
-                        let answer = observer.call1(py, (state.t, state.step, array(py, &state.x)))?;
-                        answer.extract::<Option<bool>>(py).map(|go_on| go_on != Some(false)).or(Ok(true))
+                        let answer =
+                            observer.call1(py, (state.t, state.step, array(py, &state.x)))?;
+                        answer
+                            .extract::<Option<bool>>(py)
+                            .map(|go_on| go_on != Some(false))
+                            .or(Ok(true))
                     });
                     match shown {
                         Ok(true) => ControlFlow::Continue(()),
@@ -117,7 +134,10 @@ fn told<'py>(py: Python<'py>, record: &Record) -> PyResult<Bound<'py, PyDict>> {
     for frame in &record.frames {
         let curves = PyList::empty(py);
         for curve in &frame.curves {
-            let velocities = curve.velocities.as_ref().map(|velocities| array(py, velocities));
+            let velocities = curve
+                .velocities
+                .as_ref()
+                .map(|velocities| array(py, velocities));
             curves.append((curve.id, curve.closed, array(py, &curve.nodes), velocities))?;
         }
         let energies = frame.energies.as_ref().map(|energies| energies.values());
@@ -159,7 +179,9 @@ pub(crate) fn load_picture(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, 
 fn pixels<'py>(py: Python<'py>, picture: &Picture) -> PyResult<Bound<'py, PyAny>> {
     if !picture.is_color() {
         let levels = picture.levels();
-        let bytes = levels.iter().all(|level| (level - level.round()).abs() <= 0.0 && (0.0..=255.0).contains(level));
+        let bytes = levels
+            .iter()
+            .all(|level| (level - level.round()).abs() <= 0.0 && (0.0..=255.0).contains(level));
         #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -173,13 +195,17 @@ fn pixels<'py>(py: Python<'py>, picture: &Picture) -> PyResult<Bound<'py, PyAny>
     }
     let shown = picture.display();
     let (width, height) = picture.size();
-    let bytes = ndarray::Array3::from_shape_vec((height, width, 3), shown.as_raw().clone()).map_err(value)?;
+    let bytes = ndarray::Array3::from_shape_vec((height, width, 3), shown.as_raw().clone())
+        .map_err(value)?;
     let array: Bound<'_, PyArrayDyn<u8>> = bytes.into_dyn().into_pyarray(py);
     Ok(array.into_any())
 }
 
 /// A contour that comes with the program.
 #[pyfunction]
-pub(crate) fn contour<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
+pub(crate) fn contour<'py>(
+    py: Python<'py>,
+    name: &str,
+) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
     Ok(array(py, scene::contour(name).map_err(value)?.first()))
 }

@@ -34,7 +34,11 @@ impl Tracker {
             "chosen" => Start::Chosen,
             "exact" => Start::Exact,
             "rough" => Start::Rough,
-            other => return Err(value(format!("start_as must be 'chosen', 'exact' or 'rough', got {other:?}"))),
+            other => {
+                return Err(value(format!(
+                    "start_as must be 'chosen', 'exact' or 'rough', got {other:?}"
+                )));
+            }
         };
         let (patience, threads, births) = rules;
         let rules = track::Options {
@@ -44,7 +48,10 @@ impl Tracker {
             threads,
             births,
         };
-        let starts: PyResult<Vec<Contour>> = starts.iter().map(|one| Ok(Contour::closed(points(one)?))).collect();
+        let starts: PyResult<Vec<Contour>> = starts
+            .iter()
+            .map(|one| Ok(Contour::closed(points(one)?)))
+            .collect();
         let (starts, frame) = (starts?, frame.image.clone());
         let tracker = attended(py, move |_| track::Tracker::new(&frame, &starts, &rules))?;
         Ok(Self(Arc::new(Mutex::new(tracker.map_err(value)?))))
@@ -52,13 +59,24 @@ impl Tracker {
 
     /// The first frame, as it was taken.
     fn first<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        told(py, self.0.lock().unwrap_or_else(PoisonError::into_inner).first())
+        told(
+            py,
+            self.0
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .first(),
+        )
     }
 
     /// All objects in the next frame.
     fn next<'py>(&self, py: Python<'py>, frame: &Image) -> PyResult<Bound<'py, PyDict>> {
         let (tracker, frame) = (Arc::clone(&self.0), frame.image.clone());
-        let next = move |_: &_| tracker.lock().unwrap_or_else(PoisonError::into_inner).next(&frame);
+        let next = move |_: &_| {
+            tracker
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .next(&frame)
+        };
         told(py, &attended(py, next)?.map_err(value)?)
     }
 }

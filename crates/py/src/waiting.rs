@@ -107,7 +107,9 @@ pub(crate) fn attended<T: Send + 'static>(
         match waited {
             Ok(done) => return done,
             Err(RecvTimeoutError::Disconnected) => {
-                return Err(PanicError::new_err("internal error: the work has ended without a word"));
+                return Err(PanicError::new_err(
+                    "internal error: the work has ended without a word",
+                ));
             }
             Err(RecvTimeoutError::Timeout) => {
                 patience = PATIENCE;

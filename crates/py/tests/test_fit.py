@@ -199,7 +199,8 @@ starts = [pysnakes.circle(350, 350, 100 + i % 50) for i in range(100000)]
 work = {
     "one": lambda: _core._sleep(60.0),
     "many": lambda: list(pysnakes.fit_many(image, starts, threads=2)),
-    "scene": lambda: pysnakes.Scene.load("soft-ball").with_values(run__steps=200_000_000, record__every=100_000_000).run(),
+    "scene": lambda: pysnakes.Scene.load("soft-ball").with_values(
+        run__steps=200_000_000, record__every=100_000_000).run(),
     "classic": lambda: pysnakes.active_contour(
         image, pysnakes.circle(350, 350, 300)[:, ::-1], convergence=0, max_num_iter=10**9),
 }[sys.argv[1]]
@@ -213,7 +214,8 @@ except KeyboardInterrupt:
 
 @pytest.mark.parametrize("work", ["one", "many", "scene", "classic"])
 def test_ctrl_c_stops_work(work):
-    child = subprocess.Popen([sys.executable, "-c", STOPPED, work], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    child = subprocess.Popen([sys.executable, "-c", STOPPED, work], **pipes)
     assert child.stdout.readline() == "ready\n"
     time.sleep(0.3)
     child.send_signal(signal.SIGINT)

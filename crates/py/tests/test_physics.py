@@ -119,7 +119,8 @@ def test_a_certificate_says_when_a_curve_rings_and_how_long_a_step_may_be():
 
 def test_a_force_is_minus_the_slope_of_its_energy():
     image = disc((90, 90), (45, 45), 20)
-    for kind, parameters in [("edge", {"sigma": 3.0}), ("line", {"sigma": 3.0}), ("distance", {}), ("gvf", {}), ("vfc", {})]:
+    smooth = {"sigma": 3.0}
+    for kind, parameters in [("edge", smooth), ("line", smooth), ("distance", {}), ("gvf", {}), ("vfc", {})]:
         force, energy = pysnakes.force_field(image, kind, energy=True, **parameters)
         assert force.shape == (90, 90, 2) and np.isfinite(force).all()
         if kind in ("edge", "line"):

@@ -55,11 +55,11 @@ def _masked(image: ArrayLike, mask: ArrayLike | None) -> tuple[ArrayLike, npt.ND
         if valid.dtype.kind != "b":
             raise TypeError(f"mask must be an array of bool, true where a pixel counts, got dtype {valid.dtype}")
     if isinstance(image, np.ma.MaskedArray):
-        hidden = np.ma.getmaskarray(image)
+        hidden: npt.NDArray[np.bool_] = np.ma.getmaskarray(image)
         if hidden.ndim == 3:
-            hidden = hidden.any(axis=2)
+            hidden = np.logical_or.reduce(hidden, axis=2)
         if hidden.any():
-            valid = ~hidden if valid is None else valid & ~hidden
+            valid = ~hidden if valid is None else np.logical_and(valid, ~hidden)
         image = image.data
     return image, valid
 

@@ -250,7 +250,8 @@ class Outline:
             ax.imshow(np.asarray(image), cmap="gray")
         ends = self.points[:1] if self.closed else self.points[:0]
         x, y = np.concatenate([self.points, ends]).T
-        drawn = ax.plot(x, y, **({"color": "tab:orange", "linewidth": 1.5} | line))
+        look: dict[str, Any] = {"color": "tab:orange", "linewidth": 1.5}
+        drawn = ax.plot(x, y, **(look | line))
         if errors > 0.0:
             width = np.nan_to_num(self.error, nan=0.0)[:, np.newaxis] * errors * self.normal
             outer, inner = self.points + width, self.points - width

@@ -240,8 +240,8 @@ def stitch(found: Sequence[BlockOutline], *, share: float = 0.5) -> list[Outline
     """One outline for each object, of those that several blocks have found.
 
     Outlines of different blocks are one object where they lie on each other: where both blocks have looked, what both
-    enclose is more than `share` of what the smaller does. Of outlines that are nearly the same the surer is kept;
-    others are parts of an object that no block has seen whole, and their union is given, without errors of nodes.
+    enclose is more than `share` of what the smaller does. Of outlines that their blocks have seen
+    whole the surest is given; where there is none, the union of the parts, without errors of nodes.
 
     Parameters
     ----------
@@ -307,28 +307,38 @@ def _contact(one: BlockOutline, other: BlockOutline) -> float:
     return float((inside[0] & inside[1]).sum()) / least if least else 0.0
 
 
+def _is_cut(one: BlockOutline) -> bool:
+    """Whether it ends where its block's view does, inside the image."""
+    rows, columns = one.outline.shape
+    top, left, bottom, right = one.seen
+    low, high = one.outline.points.min(axis=0), one.outline.points.max(axis=0)
+    before = (left > 0 and low[0] < left + 2.0) or (top > 0 and low[1] < top + 2.0)
+    return bool(before or (right < columns and high[0] > right - 3.0) or (bottom < rows and high[1] > bottom - 3.0))
+
+
 def _one_of(group: list[BlockOutline]) -> Outline:
     """The surest of nearly the same outlines, or the union of parts."""
-    outlines = [one.outline for one in group]
-    largest = max(outlines, key=lambda outline: outline.area)
-    same = [outline for outline in outlines if outline.area > 0.8 * largest.area]
 
     def sure(outline: Outline) -> float:
         return float(np.mean(outline.strength)) if len(outline.strength) else 0.0
 
-    surest = max(same, key=sure)
+    outlines = [one.outline for one in group]
+    whole = [one.outline for one in group if not _is_cut(one)]
+    largest = max(outlines, key=lambda outline: outline.area)
+    if whole and max(outline.area for outline in whole) > 0.8 * largest.area:
+        return max((outline for outline in whole if outline.area > 0.8 * largest.area), key=sure)
+    if len(outlines) == 1:
+        return largest
     low = np.floor(np.min([outline.points.min(axis=0) for outline in outlines], axis=0)) - 1.0
     high = np.ceil(np.max([outline.points.max(axis=0) for outline in outlines], axis=0)) + 1.0
     size = (int(high[1] - low[1]) + 1, int(high[0] - low[0]) + 1)
     union = np.zeros(size, dtype=bool)
     for outline in outlines:
         union |= _core.filled([np.ascontiguousarray(outline.points - low)], size)
-    if len(group) == 1 or surest.area > 0.9 * union.sum():
-        return surest
     ring = max(_core.border(union), key=len) + low
     nothing = np.full(len(ring), np.nan)
     return dataclasses.replace(
-        surest, points=ring, strength=nothing, error=nothing, slope=nothing, offset=nothing,
+        largest, points=ring, strength=nothing, error=nothing, slope=nothing, offset=nothing,
         normal=np.full((len(ring), 2), np.nan), held=np.zeros(len(ring), dtype=bool),
         note=f"the union of {len(group)} parts that blocks have seen", explanation="",
     )
