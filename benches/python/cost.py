@@ -18,7 +18,7 @@ import matplotlib.image
 import numpy as np
 
 import pysnakes
-from pysnakes.dask import BlockOutline, _fit_block
+from pysnakes.dask import BlockOutline, _fit_block, _Place
 from pysnakes.store import Results
 
 
@@ -62,7 +62,7 @@ def main() -> None:
     rows.append(("pickle and unpickle an image of 512×512", least(lambda: pickle.loads(pickle.dumps(image)))[0]))
     block = np.tile(picture(256, 40.0), (4, 4))
     starts = [(k + 1, pysnakes.circle(128 + 256 * (k % 4), 128 + 256 * (k // 4), 46)) for k in range(16)]
-    place = ((0, 0), (0, 0, 1024, 1024), (1024, 1024))
+    place = _Place((0, 0), 1, (1024, 1024), (0, 0, 1024, 1024), ((), ()))
     took, parts = least(lambda: _fit_block(block, starts, place, {}), 5)
     assert all(isinstance(part, BlockOutline) and part.outline.is_outline for part in parts)
     rows.append(("a block of 1024×1024 with 16 objects", took))

@@ -10,7 +10,7 @@ import numpy as np
 import pysnakes
 
 scene = pysnakes.Scene.load("ringing-oval")
-steps = np.array([0.08, 0.04, 0.02, 0.01])
+steps = np.array([0.05, 0.025, 0.0125, 0.00625])
 end = 4.0
 
 

@@ -127,19 +127,78 @@ class BlockOutline:
     seen: tuple[int, int, int, int]
 
 
+_BLOCK = 1 << 32
+
+
+@dataclasses.dataclass(frozen=True)
+class _Place:
+    """A block: its row and column, its number, the image's shape, the part that is seen, and where blocks meet in it."""
+
+    block: tuple[int, int]
+    number: int
+    shape: tuple[int, int]
+    seen: tuple[int, int, int, int]
+    edges: tuple[tuple[int, ...], tuple[int, ...]]
+
+
+def _numbered(block: np.ndarray[Any, Any], columns: int, block_id: Any = None) -> np.ndarray[Any, Any]:
+    """Labels that no other block has."""
+    number = block_id[0] * columns + block_id[1] + 1
+    return np.where(block > 0, block.astype(np.int64) + number * _BLOCK, 0)
+
+
+def _parts(view: np.ndarray[Any, Any], place: _Place, share: float) -> list[tuple[int, np.ndarray[Any, Any]]]:
+    """The objects of a block as masks, with what of them lies in others; only those of which most lies in this one.
+
+    Labels of two blocks are of one object where they touch along most of the shorter of both at the border.
+    """
+    parent: dict[int, int] = {int(label): int(label) for label in np.unique(view) if label != 0}
+
+    def root(label: int) -> int:
+        while parent[label] != label:
+            parent[label] = parent[parent[label]]
+            label = parent[label]
+        return label
+
+    lines = [(view[edge - 1], view[edge]) for edge in place.edges[0]]
+    lines += [(view[:, edge - 1], view[:, edge]) for edge in place.edges[1]]
+    for one, other in lines:
+        both = (one != 0) & (other != 0)
+        pairs, counts = np.unique(np.stack([one[both], other[both]]), axis=1, return_counts=True)
+        for (a, b), count in zip(pairs.T.tolist(), counts.tolist()):
+            if count > share * min(int((one == a).sum()), int((other == b).sum())):
+                parent[max(root(a), root(b))] = min(root(a), root(b))
+    groups: dict[int, list[int]] = {}
+    for label in parent:
+        groups.setdefault(root(label), []).append(label)
+    found = []
+    for labels_of in groups.values():
+        own = [label for label in labels_of if label // _BLOCK == place.number]
+        if not own:
+            continue
+        mask = np.isin(view, labels_of)
+        held: dict[int, int] = {}
+        for number, count in zip(*np.unique(view[mask] // _BLOCK, return_counts=True)):
+            held[int(number)] = int(count)
+        # a block that holds more, as far as it is seen from here, sees all of its own, and takes it
+        if held[place.number] == max(held.values()):
+            found.append((min(own) % _BLOCK, mask))
+    return found
+
+
 def _fit_block(
     pixels: ArrayLike,
     starts: list[tuple[int, Floats]] | np.ndarray[Any, Any],
-    place: tuple[tuple[int, int], tuple[int, int, int, int], tuple[int, int]],
+    place: _Place,
     options: dict[str, Any],
 ) -> list[BlockOutline]:
-    block, seen, shape = place
-    corner = np.array([seen[1], seen[0]], dtype=np.float64)
+    corner = np.array([place.seen[1], place.seen[0]], dtype=np.float64)
+    by_labels = isinstance(starts, np.ndarray)
+    given: list[tuple[int, Any]] = []
     if isinstance(starts, np.ndarray):
-        own = [(int(label), starts == label) for label in np.unique(starts) if label != 0]
-        given: list[tuple[int, Any]] = own
+        given.extend(_parts(starts, place, 0.5))
     else:
-        given = [(label, points - corner) for label, points in starts]
+        given.extend((label, points - corner) for label, points in starts)
     if not given:
         return []
     prepared, found = Prepared(pixels, **options), []
@@ -147,11 +206,11 @@ def _fit_block(
         try:
             outline = prepared.fit(start)
         except ValueError:
-            if isinstance(starts, np.ndarray):
-                continue  # a sliver that encloses nothing: the rest of the object lies in another block
+            if by_labels:
+                continue  # a sliver that encloses nothing
             raise
-        moved = dataclasses.replace(outline, points=outline.points + corner, shape=shape)
-        found.append(BlockOutline(moved, block, label, seen))
+        moved = dataclasses.replace(outline, points=outline.points + corner, shape=place.shape)
+        found.append(BlockOutline(moved, place.block, label, place.seen))
     return found
 
 
@@ -171,7 +230,7 @@ def fit_blocks(
     starts : list of array_like, or dask.array.Array of int
         Starts of points (x, y) in the whole image, each of which is fitted in the block that its middle lies in. Or
         an image of labels of the same chunks, as a network gives them block by block: 0 for nothing, and in each block
-        numbers of its own for the parts of objects in it.
+        numbers of its own for the parts of objects in it. Parts that touch across a border are one start.
     depth : int
         Pixels of overlap: as much as an object may reach beyond the block it is fitted in. Pixels.
     **options
@@ -197,22 +256,22 @@ def fit_blocks(
     if labels is not None and labels.chunks != image.chunks[:2]:
         raise ValueError(f"labels must have the chunks of the image, {image.chunks[:2]}, got {labels.chunks}")
     owned = {} if labels is not None else _owners(starts, edges, shape)
+    if labels is not None:
+        labels = labels.map_blocks(_numbered, columns=len(edges[1]) - 1, dtype=np.int64)
     parts = []
     for row, column in itertools.product(range(len(edges[0]) - 1), range(len(edges[1]) - 1)):
         core = (edges[0][row], edges[1][column], edges[0][row + 1], edges[1][column + 1])
         top, left, bottom, right = (int(edge) for edge in core)
         seen = (max(top - depth, 0), max(left - depth, 0), min(bottom + depth, shape[0]), min(right + depth, shape[1]))
-        if labels is None:
-            own: Any = owned.get((row, column), [])
-            if not own:
-                continue
-        else:
-            inner = labels[top:bottom, left:right]
-            around = ((top - seen[0], seen[2] - bottom), (left - seen[1], seen[3] - right))
-            own = dask.array.pad(inner, around)
-        pixels = image[seen[0] : seen[2], seen[1] : seen[3]]
-        place = ((row, column), seen, shape)
-        parts.append(dask.delayed(_fit_block, pure=False)(pixels, own, place, options))
+        view = (slice(seen[0], seen[2]), slice(seen[1], seen[3]))
+        own: Any = owned.get((row, column), []) if labels is None else labels[view]
+        if labels is None and not own:
+            continue
+        inner = [tuple(int(e) - low for e in own_edges if low < e < high)
+                 for own_edges, low, high in zip(edges, seen[:2], seen[2:])]
+        number = row * (len(edges[1]) - 1) + column + 1
+        place = _Place((row, column), number, shape, seen, (inner[0], inner[1]))
+        parts.append(dask.delayed(_fit_block, pure=False)(image[view], own, place, options))
     return dask.delayed(_joined, pure=False)(parts)
 
 
