@@ -16,6 +16,7 @@ from typing import Any
 
 import matplotlib.image
 import numpy as np
+from distributed import Client, LocalCluster
 
 import pysnakes
 from pysnakes.dask import BlockOutline, _fit_block, _Place
@@ -66,6 +67,18 @@ def main() -> None:
     took, parts = least(lambda: _fit_block(block, starts, place, {}), 5)
     assert all(isinstance(part, BlockOutline) and part.outline.is_outline for part in parts)
     rows.append(("a block of 1024×1024 with 16 objects", took))
+    with LocalCluster(
+        n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0",
+        worker_dashboard_address="127.0.0.1:0",
+    ) as cluster, Client(cluster) as client:
+        client.gather(client.map(abs, range(100), pure=False))
+        began = time.perf_counter()
+        client.gather(client.map(abs, range(2000), pure=False))
+        rows.append(("a task of Dask, elapsed, of two workers together", 0.5 * (time.perf_counter() - began)))
+        payload = [np.zeros(1 << 20, np.uint8) for _ in range(50)]
+        began = time.perf_counter()
+        client.gather(client.map(len, client.scatter(payload), pure=False))
+        rows.append(("1 MiB to a worker, elapsed", 20.0 * (time.perf_counter() - began)))
     print("| piece | CPU, ms |\n| --- | ---: |")
     for name, took in rows:
         print(f"| {name} | {took:.2f} |")

@@ -260,6 +260,7 @@ def test_an_outline_is_drawn(bright, tmp_path):
     found = pysnakes.fit(bright, START)
     figure, axes = plt.subplots()
     assert found.plot(axes, image=bright, errors=3.0) is axes
+    assert found._repr_svg_().startswith("<svg") and "polygon" in found._repr_svg_()
     assert len(axes.lines) == 1 and len(axes.images) == 1
     line = axes.lines[0].get_xydata()
     assert (line[0] == line[-1]).all() and len(line) == len(found) + 1

@@ -67,3 +67,15 @@ def test_a_file_is_no_folder(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(ValueError, match="folder"):
         Results(tmp_path / "file")
+
+
+def test_outlines_of_other_programs_are_taken_in(found, tmp_path):
+    (tmp_path / "found").mkdir()
+    for name in ("one", "two"):
+        pysnakes.save_outlines(tmp_path / "found" / f"{name}.geojson", [found])
+    results = Results(tmp_path / "results")
+    files = sorted((tmp_path / "found").iterdir())
+    assert results.collect(files) == 2 and results.collect(files) == 0
+    rows = results.table().to_pylist()
+    assert [row["image"] for row in rows] == ["one", "two"]
+    assert rows[0]["area"] == pytest.approx(found.area, rel=1e-6) and rows[0]["error"][0] is None

@@ -121,6 +121,17 @@ class Outline:
                 value.flags.writeable = False
         return cls(shape=shape, **found)
 
+    @classmethod
+    def _bare(cls, points: Floats) -> Outline:
+        """An outline of which nothing is known but its nodes."""
+        none = np.full(len(points), np.nan)
+        normal, held = np.full((len(points), 2), np.nan), np.zeros(len(points), dtype=bool)
+        return cls(
+            points=points, closed=True, strength=none, error=none, slope=none, offset=none, normal=normal, held=held,
+            outcome="read", reason="read from a file", is_outline=True, note=None, held_share=None, crossings=None,
+            steps=0, explanation="", shape=(0, 0),
+        )
+
     @property
     def coords(self) -> Floats:
         """Nodes as (row, column), the order of scikit-image and napari."""
@@ -168,6 +179,19 @@ class Outline:
             said.append(f"error {np.median(measured):.3f} px")
         said.append("an outline" if self.is_outline else f"no outline: {self.reason}")
         return f"<Outline {', '.join(said)}>"
+
+    def _repr_svg_(self) -> str:
+        """What a notebook shows."""
+        low, high = self.points.min(axis=0) - 2.0, self.points.max(axis=0) + 2.0
+        width, height = (high - low).tolist()
+        scale = 240.0 / max(width, height)
+        way = " ".join(f"{x:.2f},{y:.2f}" for x, y in self.points)
+        kind = "polygon" if self.closed else "polyline"
+        return (
+            f'<svg xmlns="http://www.w3.org/2000/svg" width="{width * scale:.0f}" height="{height * scale:.0f}" '
+            f'viewBox="{low[0]:.2f} {low[1]:.2f} {width:.2f} {height:.2f}"><{kind} points="{way}" fill="none" '
+            f'stroke="darkorange" stroke-width="{1.5 / scale:.3f}"/></svg>'
+        )
 
     def to_mask(self, shape: tuple[int, int] | None = None) -> npt.NDArray[np.bool_]:
         """The pixels whose centers are inside.

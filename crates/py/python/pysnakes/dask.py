@@ -19,37 +19,7 @@ from ._files import read_image
 from ._fit import Prepared
 from ._inputs import ArrayLike, Floats
 from ._outline import Outline
-from .store import Results
-
-
-def _starts_of(start: Any, path: str) -> list[Any]:
-    """The starts in the image of a file."""
-    if callable(start):
-        start = start(path)
-    if isinstance(start, dict):
-        stem = os.path.splitext(os.path.basename(path))[0]
-        if stem not in start:
-            raise ValueError(f"start has no entry {stem!r}")
-        start = start[stem]
-    return list(start) if isinstance(start, (list, tuple)) and np.ndim(_points(start[0])) == 2 else [start]
-
-
-def _points(one: Any) -> Any:
-    return getattr(one, "points", one)
-
-
-def _fit_file(path: str, start: Any, store: str, options: dict[str, Any], load: Callable[[str], Any]) -> dict[str, Any]:
-    results = Results(store)
-    if results.is_finished(path):
-        return {"image": path, "outlines": 0, "done": "before"}
-    try:
-        prepared = Prepared(load(path), **options)
-        outlines = [prepared.fit(one) for one in _starts_of(start, path)]
-    except (TypeError, ValueError, OSError) as error:
-        results.refuse(path, str(error))
-        return {"image": path, "outlines": 0, "done": "refused"}
-    results.write(path, outlines)
-    return {"image": path, "outlines": len(outlines), "done": "now"}
+from .store import _points, fit_file
 
 
 def fit_bag(
@@ -102,7 +72,7 @@ def fit_bag(
     if not names:
         raise ValueError("files must hold at least one file, got none")
     bag = dask.bag.from_sequence(names, partition_size=partition_size)
-    return bag.map(_fit_file, start=start, store=os.fspath(store), options=options, load=load)
+    return bag.map(fit_file, start=start, store=os.fspath(store), load=load, **options)
 
 
 @dataclasses.dataclass(frozen=True)

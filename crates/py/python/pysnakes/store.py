@@ -11,12 +11,15 @@ import hashlib
 import json
 import os
 import struct
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ._files import load_outlines, read_image
+from ._fit import Prepared
+from ._inputs import ArrayLike
 from ._outline import Outline
 
 _MEASURES = ("area", "perimeter", "major_axis", "minor_axis", "angle", "circularity", "solidity")
@@ -100,7 +103,7 @@ def _row(image: str, number: int, outline: Outline) -> dict[str, Any]:
         "x": outline.points[:, 0].tolist(),
         "y": outline.points[:, 1].tolist(),
         "error": [None if np.isnan(error) else error for error in outline.error.tolist()],
-        "strength": outline.strength.tolist(),
+        "strength": [None if np.isnan(one) else one for one in outline.strength.tolist()],
         "geometry": _wkb(outline.points, outline.closed),
     }
 
@@ -147,6 +150,28 @@ class Results:
         """Write that an image was refused, and why, so that it is not tried again."""
         row = {"image": image, "is_outline": False, "outcome": "refused", "reason": reason}
         return self._write(image, [row])
+
+    def collect(self, files: Iterable[str | os.PathLike[str]]) -> int:
+        """Take in files of outlines that another program wrote, ``snake fit --out-dir`` among them.
+
+        Parameters
+        ----------
+        files : iterable of str or path
+            Files as :func:`pysnakes.load_outlines` reads them; the name without its ending is that of the image.
+
+        Returns
+        -------
+        int
+            Files taken in; those whose image is there already are passed over.
+        """
+        taken = 0
+        for path in files:
+            image = Path(path).stem
+            if self.is_finished(image):
+                continue
+            self.write(image, [Outline._bare(points) for points in load_outlines(path)])
+            taken += 1
+        return taken
 
     def _write(self, image: str, rows: list[dict[str, Any]]) -> Path:
         if not rows:
@@ -199,3 +224,62 @@ class Results:
             if other != path:
                 other.unlink()
         return path
+
+
+def _points(one: Any) -> Any:
+    return getattr(one, "points", one)
+
+
+def _starts_of(start: Any, path: str) -> list[Any]:
+    """The starts in the image of a file."""
+    if callable(start):
+        start = start(path)
+    if isinstance(start, dict):
+        stem = os.path.splitext(os.path.basename(path))[0]
+        if stem not in start:
+            raise ValueError(f"start has no entry {stem!r}")
+        start = start[stem]
+    several = isinstance(start, (list, tuple)) and (not start or np.ndim(_points(start[0])) == 2)
+    return list(start) if several else [start]
+
+
+def fit_file(
+    path: str | os.PathLike[str],
+    start: Any,
+    store: str | os.PathLike[str],
+    *,
+    load: Callable[[str], ArrayLike] = read_image,
+    **options: Any,
+) -> dict[str, Any]:
+    """Fit the image of a file, unless its results are there: what a scheduler gives to a worker.
+
+    Parameters
+    ----------
+    path : str or path
+        The file; its name as given is that of the image in the table.
+    start : array_like, list, dict or callable
+        A start as in :func:`pysnakes.fit`, a list of several, a dictionary with the name of the file without its ending
+        as key, or a function of the path that gives one of these.
+    store : str or path
+        The folder of results.
+    load : callable
+        Reads the image.
+    **options
+        As in :func:`pysnakes.fit`.
+
+    Returns
+    -------
+    dict
+        ``image``, ``outlines`` (how many), ``done``: "now", "before", or "refused", the reason of which is in the table.
+    """
+    path, results = os.fspath(path), Results(store)
+    if results.is_finished(path):
+        return {"image": path, "outlines": 0, "done": "before"}
+    try:
+        prepared = Prepared(load(path), **options)
+        outlines = [prepared.fit(one) for one in _starts_of(start, path)]
+    except (TypeError, ValueError, OSError) as error:
+        results.refuse(path, str(error))
+        return {"image": path, "outlines": 0, "done": "refused"}
+    results.write(path, outlines)
+    return {"image": path, "outlines": len(outlines), "done": "now"}
