@@ -10,6 +10,9 @@ pub(crate) const BACK: usize = 10;
 /// A way that shrinks by less than this from one half of the past to the other may as well go on for ever.
 const EVEN: f64 = 0.8;
 
+/// Of the way asked about, so much may be left: what shrinks fast at first may creep on.
+const LEFT: f64 = 0.1;
+
 /// Who has moved by less than this share of the way asked about is still.
 const STILL: f64 = 1e-3;
 
@@ -45,7 +48,7 @@ impl Past {
         self.0.iter().map(far).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether it still goes one way, and will go on for more than so many pixels if it slows down as it has.
+    /// Whether it still goes one way, and will go on for more than a tenth of so many pixels if it slows down as it has.
     pub(crate) fn drifts(&self, points: &[DVec2], way: f64) -> bool {
         let (Some(first), Some(middle)) = (self.0.front(), self.0.get(self.0.len() / 2)) else {
             return false;
@@ -62,7 +65,7 @@ impl Past {
         }
         // the way shrinks by this from one half of the past to the next, and so on
         let ratio = both / before;
-        ratio >= EVEN || most * ratio / (1.0 - ratio) > way
+        ratio >= EVEN || most * ratio / (1.0 - ratio) > LEFT * way
     }
 }
 

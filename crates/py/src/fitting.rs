@@ -151,29 +151,24 @@ impl Batch {
         // an image that has one start is made ready by the thread that fits it, one with several once for all
         let mut uses = vec![0_usize; images.len()];
         jobs.iter().for_each(|(image, _)| uses[*image] += 1);
-        let shared: Vec<Option<Result<snakes::Prepared, FitError>>> = images
-            .iter()
-            .zip(&uses)
-            .map(|(image, uses)| (*uses > 1).then(|| snakes::Prepared::of(image, &options)))
-            .collect();
         let stop = Arc::new(AtomicBool::new(false));
         let (send, answers) = mpsc::channel();
         let told = Arc::clone(&stop);
         let work = move || {
+            let prepare = |(image, uses): (&snakes::Image, &usize)| {
+                (*uses > 1).then(|| guarded(|| snakes::Prepared::of(image, &options)))
+            };
+            let shared: Vec<_> = images.iter().zip(&uses).map(prepare).collect();
             let work = |(image, start): &(usize, Contour)| -> Answer {
                 if told.load(Ordering::Relaxed) {
                     return Ok(None);
                 }
-                guarded(|| {
-                    let fit = match &shared[*image] {
-                        Some(prepared) => prepared
-                            .clone()
-                            .and_then(|prepared| fit(&prepared, start, &told)),
-                        None => snakes::Prepared::of(&images[*image], &options)
-                            .and_then(|prepared| fit(&prepared, start, &told)),
-                    };
-                    Some(fit)
-                })
+                let prepared = match &shared[*image] {
+                    Some(Ok(prepared)) => prepared.clone(),
+                    Some(Err(panic)) => return Err(Python::attach(|py| panic.clone_ref(py))),
+                    None => guarded(|| snakes::Prepared::of(&images[*image], &options))?,
+                };
+                guarded(|| Some(prepared.and_then(|prepared| fit(&prepared, start, &told))))
             };
             in_order(&jobs, threads, work, |_, answer| {
                 let _ = send.send(answer); // nobody may want it any more
