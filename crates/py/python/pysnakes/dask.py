@@ -117,12 +117,17 @@ def _numbered(block: np.ndarray[Any, Any], columns: int, block_id: Any = None) -
     return np.where(block > 0, block.astype(np.int64) + number * _BLOCK, 0)
 
 
-def _parts(view: np.ndarray[Any, Any], place: _Place, share: float) -> list[tuple[int, np.ndarray[Any, Any]]]:
-    """The objects of a block as masks, with what of them lies in others; only those of which most lies in this one.
+def _parts(view: np.ndarray[Any, Any], place: _Place, share: float) -> list[tuple[int, Floats]]:
+    """The borders of the objects of a block, with what of them lies in others; only if most of one lies in this one.
 
     Labels of two blocks are of one object where they touch along most of the shorter of both at the border.
     """
-    parent: dict[int, int] = {int(label): int(label) for label in np.unique(view) if label != 0}
+    pixels = np.argwhere(view)
+    marks = view[pixels[:, 0], pixels[:, 1]]
+    order = np.argsort(marks, kind="stable")
+    names, first = np.unique(marks[order], return_index=True)
+    places = dict(zip(names.tolist(), np.split(pixels[order], first[1:])))
+    parent: dict[int, int] = {label: label for label in places}
 
     def root(label: int) -> int:
         while parent[label] != label:
@@ -146,13 +151,18 @@ def _parts(view: np.ndarray[Any, Any], place: _Place, share: float) -> list[tupl
         own = [label for label in labels_of if label // _BLOCK == place.number]
         if not own:
             continue
-        mask = np.isin(view, labels_of)
         held: dict[int, int] = {}
-        for number, count in zip(*np.unique(view[mask] // _BLOCK, return_counts=True)):
-            held[int(number)] = int(count)
+        for label in labels_of:
+            held[label // _BLOCK] = held.get(label // _BLOCK, 0) + len(places[label])
         # a block that holds more, as far as it is seen from here, sees all of its own, and takes it
-        if held[place.number] == max(held.values()):
-            found.append((min(own) % _BLOCK, mask))
+        if held[place.number] < max(held.values()):
+            continue
+        inside = np.concatenate([places[label] for label in labels_of])
+        low, high = inside.min(axis=0), inside.max(axis=0)
+        mask = np.zeros(tuple((high - low + 1).tolist()), dtype=bool)
+        mask[tuple((inside - low).T)] = True
+        ring = max(_core.border(mask), key=len) + low[::-1].astype(np.float64)
+        found.append((min(own) % _BLOCK, ring))
     return found
 
 
@@ -389,24 +399,44 @@ def labels(outlines: Sequence[Outline], shape: tuple[int, int], chunks: Any = "a
     -------
     dask.array.Array of int32
     """
+    import dask
     import dask.array
 
-    empty = dask.array.zeros(shape, dtype=np.int32, chunks=chunks)
-    rings = [outline.points for outline in outlines]
-    return empty.map_blocks(_painted, rings=rings, dtype=np.int32)
+    sizes = dask.array.core.normalize_chunks(chunks, shape, dtype=np.int32)
+    edges = [np.concatenate([[0], np.cumsum(size)]) for size in sizes]
+    boxes = [(outline.points.min(axis=0), outline.points.max(axis=0)) for outline in outlines]
+    # which outlines each block has to do with
+    own: dict[tuple[int, int], list[tuple[int, Floats]]] = {}
+    for number, (outline, (low, high)) in enumerate(zip(outlines, boxes), start=1):
+        spans = []
+        for axis, own_edges in ((1, edges[0]), (0, edges[1])):
+            begin = int(np.searchsorted(own_edges, np.floor(low[axis]), side="right")) - 1
+            end = int(np.searchsorted(own_edges, np.ceil(high[axis]), side="right")) - 1
+            spans.append(range(max(begin, 0), min(end, len(own_edges) - 2) + 1))
+        for place in itertools.product(*spans):
+            own.setdefault(place, []).append((number, outline.points))
+    rows = []
+    for i, height in enumerate(sizes[0]):
+        row = []
+        for j, width in enumerate(sizes[1]):
+            corner = (int(edges[1][j]), int(edges[0][i]))
+            painted = dask.delayed(_painted, pure=False)((height, width), corner, own.get((i, j), []))
+            row.append(dask.array.from_delayed(painted, shape=(height, width), dtype=np.int32))
+        rows.append(row)
+    return dask.array.block(rows)
 
 
 def _painted(
-    block: np.ndarray[Any, Any], rings: list[Floats], block_info: Any = None
+    size: tuple[int, int], corner: tuple[int, int], rings: list[tuple[int, Floats]]
 ) -> np.ndarray[Any, np.dtype[np.int32]]:
-    out = np.zeros(block.shape, dtype=np.int32)
-    if not block_info:
-        return out
-    (top, bottom), (left, right) = block_info[None]["array-location"]
-    for number, ring in enumerate(rings, start=1):
-        low, high = ring.min(axis=0), ring.max(axis=0)
-        if high[0] < left or low[0] > right or high[1] < top or low[1] > bottom:
+    out = np.zeros(size, dtype=np.int32)
+    for number, ring in rings:
+        # no more is filled than its box
+        low = np.maximum(np.floor(ring.min(axis=0)) - corner, 0).astype(int)
+        high = np.minimum(np.ceil(ring.max(axis=0)) - corner + 1, size[::-1]).astype(int)
+        if not (high > low).all():
             continue
-        inside = _core.filled([np.ascontiguousarray(ring - (left, top))], (bottom - top, right - left))
-        out[inside] = number
+        own = np.ascontiguousarray(ring - corner - low)
+        inside = _core.filled([own], (int(high[1] - low[1]), int(high[0] - low[0])))
+        out[low[1] : high[1], low[0] : high[0]][inside] = number
     return out
