@@ -413,7 +413,7 @@ def labels(outlines: Sequence[Outline], shape: tuple[int, int], chunks: Any = "a
             begin = int(np.searchsorted(own_edges, np.floor(low[axis]), side="right")) - 1
             end = int(np.searchsorted(own_edges, np.ceil(high[axis]), side="right")) - 1
             spans.append(range(max(begin, 0), min(end, len(own_edges) - 2) + 1))
-        for place in itertools.product(*spans):
+        for place in itertools.product(spans[0], spans[1]):
             own.setdefault(place, []).append((number, outline.points))
     rows = []
     for i, height in enumerate(sizes[0]):
