@@ -153,7 +153,7 @@ def test_a_refused_start_of_many_is_named_or_passed_over():
     with pytest.raises(ValueError, match="start 1"):
         pysnakes.fit_many(image, [starts[0], np.zeros((2, 2))])
     far = np.array([(1e300, 0.0), (48, 44), (50, 50)])
-    with pytest.raises(ValueError, match="start 1: start"):
+    with pytest.raises(ValueError, match="start 1: reaches"):
         list(pysnakes.fit_many(image, [starts[0], far]))
     skipped = list(pysnakes.fit_many(image, [starts[0], far, starts[1]], errors="skip"))
     assert [one is None for one in skipped] == [False, True, False]
@@ -265,3 +265,19 @@ def test_an_outline_is_drawn(bright, tmp_path):
     line = axes.lines[0].get_xydata()
     assert (line[0] == line[-1]).all() and len(line) == len(found) + 1
     plt.close(figure)
+
+
+def test_an_open_start_finds_an_edge_between_its_ends():
+    x = np.arange(90)
+    image = np.tile(60 + 120 / (1 + np.exp(-(x - 40.3) / 0.8)), (90, 1))
+    found = pysnakes.fit(image, [(38.0, 10.0), (43.0, 45.0), (39.0, 80.0)], closed=False)
+    assert not found.closed and "open" in repr(found)
+    assert np.abs(found.points[:, 0] - 40.3).max() < 0.3
+    assert found.to_geojson()["geometry"]["type"] == "LineString"
+
+
+def test_forces_by_name_pull_a_curve_from_afar():
+    image = disc((120, 120), (60.0, 60.0), 20.0)
+    far = pysnakes.circle(60, 60, 50)
+    found = pysnakes.fit(image, far, forces=["gvf"], tension=5.0, rigidity=20.0)
+    assert np.abs(np.hypot(*(found.points - 60).T) - 20).max() < 1.5

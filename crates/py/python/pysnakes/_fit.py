@@ -202,6 +202,6 @@ def _answers(batch: _core.Batch, shapes: list[tuple[int, int]], errors: str) -> 
         if found is not None:
             yield Outline._of(found, shapes[index])
         elif errors == "raise":
-            raise ValueError(f"start {index}: {refusal}")
+            raise ValueError(f"start {index}: {(refusal or '').removeprefix('start: ')}")
         else:
             yield None  # type: ignore[misc]

@@ -153,11 +153,11 @@ def _border_of(mask: npt.NDArray[np.bool_], shape: tuple[int, int], name: str) -
 
 
 def _inside(points: Floats, shape: tuple[int, int], name: str) -> Floats:
-    """Refuse a start none of which lies in the image, with a word on the order of its columns."""
+    """Refuse a start whose box does not meet the image, with a word on the order of its columns."""
     rows, columns = shape
 
     def within(x: Floats, y: Floats) -> bool:
-        return bool(((x >= -0.5) & (x <= columns - 0.5) & (y >= -0.5) & (y <= rows - 0.5)).any())
+        return bool(x.max() >= -0.5 and x.min() <= columns - 0.5 and y.max() >= -0.5 and y.min() <= rows - 0.5)
 
     if within(points[:, 0], points[:, 1]):
         return points
