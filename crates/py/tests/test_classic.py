@@ -97,7 +97,7 @@ def test_a_snake_that_creeps_is_not_at_rest(gamma):
 def test_a_snake_of_few_points_does_not_collapse(weights):
     count = 25 if not weights else 50
     image, start = disc(), around(128, 128, 75, count + 1)[:-1]
-    rules = {"max_num_iter": 20_000, "convergence": 0.0 if not weights else 0.1} | weights
+    rules = {"max_num_iter": 8000, "convergence": 0.0 if not weights else 0.1} | weights
     theirs = reference(image, start, **rules)
     ours = pysnakes.active_contour(image, start, **rules)
     radius = lambda points: np.hypot(*(points - points.mean(axis=0)).T).mean()

@@ -238,8 +238,8 @@ def test_thousands_of_fits_keep_no_memory():
 
     work(500)
     before = resident()
-    work(5000)
-    # an image kept each time would be 92 MB
+    work(2500)
+    # an image kept each time would be 46 MB
     assert resident() - before < 4_000_000
 
 
