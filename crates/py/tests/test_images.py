@@ -174,3 +174,12 @@ def test_options_are_checked_by_name(bright):
 def test_the_compiled_part_refuses_what_the_package_would_have_converted():
     with pytest.raises(TypeError, match="uint8"):
         _core.Image(np.zeros((4, 4), np.int64), 1.0)
+
+
+def test_the_range_of_levels_does_not_matter(bright):
+    mask = pysnakes.fit(bright, START).to_mask()
+    whole = np.round(bright).astype(np.uint8)
+    words = whole.astype(np.uint16)
+    for other in (bright / 255, bright / 2550, bright * 1000, words * 257, words * 16):
+        found = pysnakes.fit(other, START)
+        assert found.is_outline and (found.to_mask() != mask).sum() <= 4
