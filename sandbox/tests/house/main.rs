@@ -14,13 +14,14 @@ mod sizes;
 mod words;
 
 /// Own packages, without the prefix `snakes-`, and their floor: an arrow may only point to a lower one.
-const FLOORS: [(&str, u32); 24] = [
+const FLOORS: [(&str, u32); 25] = [
     ("lanes", 0),
     ("banded", 0),
     ("field", 1),
     ("elastic", 1),
     ("outline", 1),
     ("integrator", 1),
+    ("classic", 1), // the snake of 1988
     ("flow", 2),
     ("snake", 2),
     ("score", 2),
@@ -38,11 +39,11 @@ const FLOORS: [(&str, u32); 24] = [
     ("sandbox", 8),
     ("benches", 9), // it draws with the kit of the sandbox
     ("peers", 10),  // general solvers, which nothing else builds
-    ("py", 8),
+    ("py", 8),      // the same for Python
 ];
 
 /// Outside crates and who may open the door to them. `*` is everybody, `test` everybody's tests.
-const DOORS: [(&str, &[&str]); 36] = [
+const DOORS: [(&str, &[&str]); 38] = [
     ("glam", &["*"]),
     ("thiserror", &["*"]),
     (
@@ -61,6 +62,7 @@ const DOORS: [(&str, &[&str]); 36] = [
             "cli",
             "sandbox",
             "benches",
+            "py",
         ],
     ),
     ("robust", &["outline"]),
@@ -95,6 +97,8 @@ const DOORS: [(&str, &[&str]); 36] = [
     ("plotters", &["sandbox"]),
     ("gif", &["io", "sandbox"]),
     ("glob", &["cli"]),
+    ("pyo3", &["py"]),
+    ("numpy", &["py"]),
     ("criterion", &["benches"]),
     ("diffsol", &["peers"]),
     ("ode_solvers", &["peers"]),
