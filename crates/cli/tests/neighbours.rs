@@ -1,5 +1,10 @@
 //! `snake fit --from`: labels whose objects touch, and what a network says of every pixel.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a test: small whole numbers"
+)]
 
 mod common;
 
