@@ -56,7 +56,7 @@ fn what_makes_no_sense_is_refused_and_nothing_is_written() {
     );
     refused(
         &["-o", "a.zip", "--resume"],
-        &["--resume: goes on with a table"],
+        &["--resume: goes on with what grows", ".geojson"],
     );
     refused(
         &["-o", "a.csv", "--kymograph", "k.png", "--object", "4"],

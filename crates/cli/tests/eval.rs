@@ -115,7 +115,7 @@ fn what_is_broken_is_reported_and_left_out() {
         "manifest.csv: line 6: a picture and its mask are needed",
         "inits.csv: line 9: no picture of the manifest is called \"nobody\"",
         "inits.csv: line 10: points must be pairs of numbers",
-        "inits.csv: line 11: a polygon must have at least 3 points, got 2",
+        "inits.csv: line 11: a polygon must have at least 3 points (or 1, for a click), got 2",
         "gone.pgm: ",
         "d2_mask.pgm: must have 96 × 96 pixels as its picture, got 2 × 2",
     ] {

@@ -76,6 +76,50 @@ fn a_run_that_was_ended_anywhere_ends_in_the_same_bytes() {
 }
 
 #[test]
+fn every_format_that_grows_is_gone_on_with() {
+    let folder = frames(6);
+    for name in ["t.geojson", "t.txt", "labels"] {
+        let go = |more: &[&str]| {
+            let out = [
+                "--as",
+                if name == "labels" { "ctc" } else { "" },
+                "-o",
+                name,
+            ];
+            let out = &out[if name == "labels" { 0 } else { 2 }..];
+            folder.snake(&[&["track", "in"][..], &START, out, more].concat())
+        };
+        assert_eq!(go(&[]).code, Some(0), "{name}");
+        let is_folder = folder.path(name).is_dir();
+        let file = if is_folder {
+            format!("{name}/mask004.tif")
+        } else {
+            name.to_owned()
+        };
+        let whole = std::fs::read(folder.path(&file)).unwrap();
+        if is_folder {
+            std::fs::remove_file(folder.path("labels/mask004.tif")).unwrap();
+            std::fs::remove_file(folder.path("labels/mask005.tif")).unwrap();
+        } else {
+            std::fs::remove_file(folder.path(name)).unwrap();
+            folder.write(&format!("{name}.part"), &whole[..whole.len() / 2]);
+        }
+        let answer = go(&["--resume"]);
+        assert_eq!(answer.code, Some(0), "{answer:?}");
+        assert!(answer.err.contains("goes on behind frame"), "{answer:?}");
+        assert!(
+            std::fs::read(folder.path(&file)).unwrap() == whole,
+            "{name}"
+        );
+        assert_eq!(go(&["--resume"]).code, Some(0), "{name}");
+    }
+    for name in ["t.zip", "t.json"] {
+        let args = [&["track", "in", "--resume", "-o", name][..], &START].concat();
+        folder.refused(&args, &["--resume: goes on with what grows", "needed"]);
+    }
+}
+
+#[test]
 fn what_is_not_the_same_is_refused_and_stays() {
     let folder = frames(5);
     assert_eq!(run(&folder, &[]).code, Some(0));
@@ -98,8 +142,8 @@ fn what_is_not_the_same_is_refused_and_stays() {
 #[test]
 fn an_error_on_the_way_keeps_what_was_followed() {
     let folder = frames(6);
-    folder.write("mend.csv", "frame,id,x,y\n4,7,1,1\n4,7,5,1\n4,7,5,5\n");
-    let says = "--mend: frame 4, object 7: no such object";
+    folder.write("mend.csv", "frame,id,x,y\n4,1,-9,1\n4,1,-5,1\n4,1,-5,5\n");
+    let says = "--mend: frame 4, object 1: start 0: must be a closed outline";
     let bytes: Vec<u8> = (0..6).flat_map(disc).collect();
     let stream = |more: &[&str]| {
         folder.snake_reading(&[&["track", "-"][..], &START, &ALL, more].concat(), &bytes)

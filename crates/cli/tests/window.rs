@@ -1,9 +1,6 @@
 //! The server of `snake live`: what is not of this machine is refused, and nothing that is sent to it stops it.
 
-#![allow(
-    clippy::unwrap_used,
-    reason = "a test may stop the process"
-)]
+#![allow(clippy::unwrap_used, reason = "a test may stop the process")]
 #![cfg(unix)]
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
@@ -64,7 +61,9 @@ fn serve(args: &[&str]) -> Served {
 /// The first line of the answer to a request, and the rest of it.
 fn get(served: &Served, path: &str, headers: &str) -> (String, String) {
     let mut stream = TcpStream::connect(&served.host).unwrap();
-    stream.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+    stream
+        .set_read_timeout(Some(Duration::from_secs(10)))
+        .unwrap();
     let request = format!("GET {path} HTTP/1.1\r\n{headers}Connection: close\r\n\r\n");
     stream.write_all(request.as_bytes()).unwrap();
     let mut text = String::new();
@@ -80,10 +79,14 @@ fn window(served: &Served, secret: &str, origin: Option<&str>, me: &str) -> Resu
     let url = format!("ws://{}/socket?secret={secret}&me={me}", served.host);
     let mut request = url.into_client_request().unwrap();
     if let Some(origin) = origin {
-        request.headers_mut().insert("Origin", origin.parse().unwrap());
+        request
+            .headers_mut()
+            .insert("Origin", origin.parse().unwrap());
     }
     let stream = TcpStream::connect(&served.host).unwrap();
-    stream.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+    stream
+        .set_read_timeout(Some(Duration::from_secs(10)))
+        .unwrap();
     let opened = tungstenite::client(request, stream);
     opened
         .map(|(socket, _)| socket)
@@ -119,19 +122,31 @@ fn the_page_is_for_this_machine_and_for_those_who_know_the_secret() {
     let host = format!("Host: {}\r\n", served.host);
     let right = format!("/?secret={}", served.secret);
     let (first, page) = get(&served, &right, &host);
-    assert!(first.contains("200") && page.contains("<title>Snakes"), "{first}");
+    assert!(
+        first.contains("200") && page.contains("<title>Snakes"),
+        "{first}"
+    );
     let policy = page.to_lowercase();
-    assert!(policy.contains("content-security-policy: default-src 'none'"), "{page}");
+    assert!(
+        policy.contains("content-security-policy: default-src 'none'"),
+        "{page}"
+    );
     for (path, headers) in [
         ("/", host.clone()),
         ("/?secret=0123", host.clone()),
         (right.as_str(), "Host: evil.example\r\n".to_owned()),
         (right.as_str(), String::new()),
-        (right.as_str(), format!("{host}Origin: http://evil.example\r\n")),
+        (
+            right.as_str(),
+            format!("{host}Origin: http://evil.example\r\n"),
+        ),
         ("/main.js", "Host: evil.example\r\n".to_owned()),
     ] {
         let (first, _) = get(&served, path, &headers);
-        assert!(first.contains("403") || first.contains("400"), "{path} {headers:?}: {first}");
+        assert!(
+            first.contains("403") || first.contains("400"),
+            "{path} {headers:?}: {first}"
+        );
     }
     let (first, _) = get(&served, "/../../etc/passwd", &host);
     assert!(first.contains("404"), "{first}");
@@ -158,7 +173,12 @@ fn a_socket_needs_the_secret_and_a_page_of_this_machine() {
 fn messages_that_are_none_are_answered_and_the_engine_goes_on() {
     let served = serve(&["soft-ball"]);
     let mut socket = own(&served, "a");
-    for bytes in [&b""[..], b"{}", &[0xff; 40], b"\x10\0\0\0\0\0\0\0{\"id\":1}"] {
+    for bytes in [
+        &b""[..],
+        b"{}",
+        &[0xff; 40],
+        b"\x10\0\0\0\0\0\0\0{\"id\":1}",
+    ] {
         socket.send(Message::Binary(bytes.to_vec().into())).unwrap();
     }
     let said = answer(&mut socket, &json!({"id": 9, "ask": {"kind": "about"}}));
@@ -170,7 +190,10 @@ fn messages_that_are_none_are_answered_and_the_engine_goes_on() {
     // text is no message: the socket closes, the engine does not
     other.send(Message::Text("hello".into())).unwrap();
     let mut third = own(&served, "c");
-    let said = answer(&mut third, &json!({"id": 1, "do": {"kind": "step", "steps": 3}}));
+    let said = answer(
+        &mut third,
+        &json!({"id": 1, "do": {"kind": "step", "steps": 3}}),
+    );
     assert!(said["error"].is_null(), "{said}");
 }
 
@@ -199,7 +222,9 @@ fn socket_step(socket: &mut Socket, steps: u64) {
         if head["frame"]["step"] == steps {
             return;
         }
-        let beyond = head["frame"]["step"].as_u64().is_some_and(|now| now > steps);
+        let beyond = head["frame"]["step"]
+            .as_u64()
+            .is_some_and(|now| now > steps);
         assert!(!beyond, "{head}");
     }
     unreachable!("no frame of {steps} steps");
@@ -211,7 +236,13 @@ fn an_end_that_is_asked_for_keeps_what_was_not_saved() {
     let gravity = json!({"id": 1, "do": {"kind": "body", "do": "gravity", "g": [1, 0]}});
     answer(&mut own(&served, "a"), &gravity);
     let id = served.child.id().to_string();
-    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &id])
+            .status()
+            .unwrap()
+            .success()
+    );
     assert!(served.child.wait().unwrap().success());
     let kept = served.folder.path().join("soft-ball.snakes.json");
     let session = std::fs::read_to_string(kept).unwrap();
@@ -237,6 +268,9 @@ fn what_cannot_be_opened_is_refused_in_one_line() {
         let out = command(&args).output().unwrap();
         let said = String::from_utf8_lossy(&out.stderr).into_owned();
         assert_eq!(out.status.code(), Some(2), "{args:?}: {said}");
-        assert!(said.lines().count() == 1 && said.contains(wanted), "{args:?}: {said}");
+        assert!(
+            said.lines().count() == 1 && said.contains(wanted),
+            "{args:?}: {said}"
+        );
     }
 }

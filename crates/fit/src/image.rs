@@ -6,6 +6,9 @@ use field::{EdgeForce, FieldError, ForceField, Grid, MaskedImage, Pixel, Pixels,
 use field::{counted_limits, lazy_force, level_limits, level_spread};
 use ndarray::{ArcArray2, Array2};
 
+/// Probabilities nearer to 0 and 1 than this are as sure.
+const SMALL: f64 = 1e-4;
+
 /// An image. A clone shares the pixels and costs nothing.
 #[derive(Debug, Clone)]
 pub struct Image(Arc<dyn Pixels>);
@@ -71,7 +74,40 @@ impl Image {
     pub fn with_mask(self, valid: Array2<bool>) -> Result<Self, FieldError> {
         let (width, height) = self.size();
         MaskedImage::new(&Grid::zeros((height, width)), &valid)?;
-        Ok(Self(Arc::new(Masked { image: self, valid })))
+        Ok(Self(Arc::new(Told {
+            image: self,
+            valid: Some(valid),
+            prior: None,
+        })))
+    }
+
+    /// The same image with what is known of its pixels before: how probable it is, 0 … 1, that each is one of the
+    /// object, as a network says. A search weighs that like what it learns itself of the inside and the outside.
+    ///
+    /// # Errors
+    ///
+    /// Probabilities of another size, or one that is no finite number. What is below 0 or above 1 is cut.
+    pub fn with_prior(self, probabilities: &Grid) -> Result<Self, FieldError> {
+        let (width, height) = self.size();
+        if probabilities.dim() != (height, width) {
+            return Err(FieldError::ShapesDiffer {
+                first: (height, width),
+                second: probabilities.dim(),
+            });
+        }
+        let mut wrong = probabilities.indexed_iter().filter(|(_, p)| !p.is_finite());
+        if let Some(((row, column), &value)) = wrong.next() {
+            return Err(FieldError::NotFinite { column, row, value });
+        }
+        let odds = |p: f64| {
+            let p = p.clamp(SMALL, 1.0 - SMALL);
+            (p / (1.0 - p)).ln()
+        };
+        Ok(Self(Arc::new(Told {
+            valid: None,
+            prior: Some(probabilities.mapv(odds)),
+            image: self,
+        })))
     }
 
     /// Width and height.
@@ -207,14 +243,16 @@ impl Pixels for Colors {
     }
 }
 
-/// An image of which some pixels do not count.
+/// An image with more that is known of its pixels.
 #[derive(Debug)]
-struct Masked {
+struct Told {
     image: Image,
-    valid: Array2<bool>,
+    /// Which pixels count, and what is known of them before, where that is not what the image says.
+    valid: Option<Array2<bool>>,
+    prior: Option<Grid>,
 }
 
-impl Pixels for Masked {
+impl Pixels for Told {
     fn size(&self) -> (usize, usize) {
         self.image.size()
     }
@@ -240,6 +278,10 @@ impl Pixels for Masked {
     }
 
     fn valid(&self) -> Option<&Array2<bool>> {
-        Some(&self.valid)
+        self.valid.as_ref().or_else(|| self.image.0.valid())
+    }
+
+    fn prior(&self) -> Option<&Grid> {
+        self.prior.as_ref().or_else(|| self.image.0.prior())
     }
 }

@@ -10,7 +10,7 @@ use crate::spans::Spans;
 const GAP: f64 = 1.5;
 
 /// Objects whose bounding boxes meet, as pairs in order.
-fn pairs(outlines: &[Vec<DVec2>]) -> Vec<(usize, usize)> {
+pub(crate) fn pairs(outlines: &[Vec<DVec2>]) -> Vec<(usize, usize)> {
     let bounds: Vec<(DVec2, DVec2)> = outlines
         .iter()
         .map(|points| {

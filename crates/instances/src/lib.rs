@@ -19,6 +19,7 @@
 
 mod all;
 mod auto;
+mod beside;
 mod contact;
 mod jobs;
 mod judge;
@@ -38,6 +39,7 @@ mod support;
 mod tree;
 
 pub use all::{Instances, Object, outline_all};
+pub use beside::in_contact;
 pub use rules::Rules;
 pub use seeds::{Circle, SeedError, Seeds};
 pub use support::Support;

@@ -22,7 +22,7 @@ const COLOR_SIGMA: f64 = 1.0;
 const TEXTURE_SIGMA: f64 = 2.5;
 
 /// The logarithm of a ratio of likelihoods is cut at this size.
-const MOST: f64 = 2.0;
+pub(crate) const MOST: f64 = 2.0;
 
 /// Share of a uniform distribution in each, and counts added to each class.
 const UNIFORM: f64 = 0.01;

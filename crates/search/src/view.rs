@@ -6,8 +6,8 @@ use field::{Grid, Pixels, squared_distance};
 use glam::DVec2;
 use ndarray::Array2;
 
-use crate::along::Polygon;
-use crate::codebook::{Codebook, Ratios, unit};
+use crate::along::{Polygon, sample};
+use crate::codebook::{Codebook, MOST, Ratios, unit};
 use crate::edges::{Across, Edges, dot, percentile, size};
 use crate::frame::Frame;
 use crate::rules::{Rules, Sign};
@@ -68,6 +68,8 @@ pub(crate) struct View {
     depth: Vec<f64>,
     deepest: f64,
     codebook: Codebook,
+    /// How much likelier each pixel is inside than outside by what is known before, as a logarithm.
+    prior: Option<Grid>,
 }
 
 /// Which pixels a view learns from, by their depth in the start.
@@ -92,7 +94,7 @@ impl View {
             object: POLARITY_CORE * deepest,
             ground: -POLARITY_REACH..0.0,
         };
-        Self::with(frame, start, depth, &reach, rules)
+        Self::with(frame, start, depth, &reach, rules).expecting(pixels)
     }
 
     /// A window for an outline that lies around the start.
@@ -113,7 +115,27 @@ impl View {
             object: 0.0,
             ground: f64::NEG_INFINITY..far,
         };
-        Self::with(frame, start, depth, &reach, rules)
+        Self::with(frame, start, depth, &reach, rules).expecting(pixels)
+    }
+
+    /// With what is known of the pixels of the picture before, cut as far as what the window says.
+    fn expecting(mut self, pixels: &dyn Pixels) -> Self {
+        self.prior = pixels.prior().map(|prior| {
+            Grid::from_shape_fn(self.frame.dim(), |(y, x)| {
+                let p = self.frame.to_picture(DVec2::new(x as f64, y as f64));
+                sample(prior, p).clamp(-MOST, MOST)
+            })
+        });
+        self
+    }
+
+    /// That and what the window says, together.
+    fn together(&self, ratios: &Ratios) -> Grid {
+        let seen = self.codebook.map(ratios, self.frame.dim());
+        match &self.prior {
+            Some(prior) => seen + prior,
+            None => seen,
+        }
     }
 
     /// A window about an open curve, whose depth is the distance to it with its sign turned; None for one without
@@ -183,6 +205,7 @@ impl View {
             depth,
             deepest,
             codebook,
+            prior: None,
         }
     }
 
@@ -235,7 +258,7 @@ impl View {
             let depth = self.depth[at];
             (known[at] > 0.0 && (depth > 0.0 || depth < far)).then_some(depth > 0.0)
         });
-        self.codebook.map(&ratios, self.frame.dim())
+        self.together(&ratios)
     }
 
     /// What is surely inside before anything is found.
@@ -246,8 +269,7 @@ impl View {
 
     /// How much likelier each pixel is inside than outside, by what is inside now.
     pub(crate) fn likelihood(&self, inside: &[bool]) -> Grid {
-        let ratios = self.ratios(inside);
-        self.codebook.map(&ratios, self.frame.dim())
+        self.together(&self.ratios(inside))
     }
 
     fn ratios(&self, inside: &[bool]) -> Ratios {

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use crate::body::{Body, Frame, Step};
+use crate::body::Body;
+use crate::candidates::Predicted;
 use crate::contact;
-use crate::follow::Predicted;
 use crate::ring;
+use crate::step::{Frame, Step};
 use crate::tracker::Tracker;
 use crate::{Event, Happening, Prediction, State};
 

@@ -2,7 +2,6 @@
 
 use field::Pixels;
 use fit::Image;
-use flow::Pyramid;
 use glam::DVec2;
 
 use crate::edges::Edges;
@@ -13,6 +12,7 @@ use crate::profile::Profiles;
 use crate::ring;
 use crate::shape::Shape;
 use crate::sight::{lightness, sample};
+use crate::step::{Frame, State, Step};
 use crate::tables::{Strips, Tables, depth};
 use crate::window::{Lightness, Window, cells, to_cells, to_pixels};
 
@@ -34,6 +34,9 @@ const REFERENCE: f64 = 0.2;
 const FORGET: f64 = 0.97;
 const LEAST_REFERENCE: f64 = 0.05;
 
+/// First outlines have more evidence than this, if they are of anything.
+const CLEAR: f64 = 0.2;
+
 /// A node is as good as its evidence against this share of its reference, and of a least reference.
 const GOOD: f64 = 0.6;
 const LEAST_NODE: f64 = 0.15;
@@ -50,46 +53,6 @@ const SLOWER: f64 = 0.8;
 
 /// An object of which less than this share lies in the frame has left it.
 const LEFT: f64 = 0.03;
-
-/// A frame: its pixels and the sizes in which flow sees it and the one before.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Frame<'a> {
-    pub pixels: &'a dyn Pixels,
-    pub pyramid: &'a Pyramid,
-    pub before: Option<&'a Pyramid>,
-}
-
-/// How an object is known in a frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum State {
-    /// It was seen.
-    Seen,
-    /// Part of it was seen: the rest goes on as the shape that is remembered.
-    Partly,
-    /// It was not seen and goes on as it was going.
-    Coasting,
-    /// It has left the frame and is waited for where it left.
-    Left,
-}
-
-impl State {
-    /// Whether anything of it was seen.
-    #[must_use]
-    pub const fn is_seen(self) -> bool {
-        matches!(self, Self::Seen | Self::Partly)
-    }
-}
-
-/// What a frame has said of an object.
-#[derive(Debug, Clone)]
-pub(crate) struct Step {
-    pub prediction: Prediction,
-    /// Evidence against the reference.
-    pub confidence: f64,
-    pub state: State,
-    /// Whether the number of nodes has changed.
-    pub remeshed: bool,
-}
 
 /// An object that is followed. Lengths are cells.
 #[derive(Debug, Clone)]
@@ -115,9 +78,13 @@ pub(crate) struct Body {
     pub innovation: f64,
     /// How well each node was seen last, 0 … 1.
     pub quality: Vec<f64>,
+    /// How clearly its first outline parts what lies on both sides, 0 … 1.
+    pub clear: f64,
     /// For how many frames it was not seen, and whether it has left the frame.
     pub coasting: u32,
     pub left: bool,
+    /// Where plain flow has carried its outline since it began, or was found again; None while it is not seen.
+    pub plain: Option<Vec<DVec2>>,
     /// The frame in which it was seen last, and where its middle was.
     pub seen_in: Option<(Image, DVec2)>,
 }
@@ -195,12 +162,14 @@ impl Body {
             motion: Motion::still(count),
             material: (0..count).map(|i| i as f64 / count as f64).collect(),
             errors: vec![0.5; count],
+            plain: Some(curve.clone()),
             curve,
             first: tables.clone(),
             running: tables,
             profiles,
             edges,
             reference: mean,
+            clear: (evidence.mean / CLEAR).clamp(0.0, 1.0),
             node_reference,
             innovation: 2.0,
             quality: vec![1.0; count],
@@ -289,6 +258,10 @@ impl Body {
         self.shape = self.shape.respaced(places);
         self.motion.waves = ring::between(&self.motion.waves, places);
         self.quality = ring::between(&self.quality, places);
+        self.plain = self
+            .plain
+            .as_ref()
+            .map(|plain| ring::between(plain, places));
     }
 
     /// It was not seen: it goes on as it was going, or waits where it left the frame.
@@ -299,6 +272,7 @@ impl Body {
         confidence: f64,
     ) -> Step {
         self.coasting += 1;
+        self.plain = None;
         self.reference = (self.reference * FORGET).max(LEAST_REFERENCE);
         self.node_reference.iter_mut().for_each(|m| *m *= FORGET);
         if !self.left {
@@ -341,9 +315,12 @@ impl Body {
             ..
         } = seen;
         let before = std::mem::replace(&mut self.curve, curve);
+        self.plain = self.plain.take().or_else(|| Some(self.curve.clone()));
         let before = match &places {
             Some(places) => {
                 self.material = ring::turned(&self.material, places);
+                let plain = self.plain.as_ref();
+                self.plain = plain.map(|plain| ring::between(plain, places));
                 ring::between(&before, places)
             }
             None => before,

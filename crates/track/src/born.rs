@@ -3,10 +3,11 @@
 use fit::Image;
 use glam::DVec2;
 
-use crate::body::{Body, Frame, Step};
+use crate::body::Body;
 use crate::divide::embodied;
 use crate::region::{Rectangle, Region, grown, regions};
 use crate::ring;
+use crate::step::{Frame, Step};
 use crate::tracker::{Object, Tracker};
 use crate::view::View;
 use crate::{Event, Happening, State};

@@ -3,7 +3,9 @@
 use fit::Image;
 use glam::DVec2;
 
-use crate::body::{Body, Frame, Step};
+use crate::body::Body;
+use crate::holes;
+use crate::step::{Frame, Step};
 use crate::tracker::Object;
 use crate::{Event, Happening, TrackError, Tracker};
 
@@ -27,6 +29,7 @@ impl Tracker {
         let Some(object) = self.objects.iter_mut().find(|object| object.id == id) else {
             return Err(TrackError::NoObject { id, known });
         };
+        let frame = &holes::filled(frame);
         let now = Frame {
             pixels: frame.pixels(),
             pyramid: &self.before,
@@ -61,6 +64,7 @@ impl Tracker {
                 got,
             });
         }
+        let frame = &holes::filled(frame);
         let now = Frame {
             pixels: frame.pixels(),
             pyramid: &self.before,

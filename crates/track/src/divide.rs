@@ -3,14 +3,15 @@
 use fit::{Contour, Image};
 use glam::DVec2;
 
-use crate::body::{Body, Frame, Step};
+use crate::body::Body;
 use crate::neck::neck;
 use crate::region::{Rectangle, Region, filled, regions};
 use crate::ring;
 use crate::start::{begun, overlap};
+use crate::step::{Frame, Step};
 use crate::tracker::{Object, Tracker};
 use crate::view::View;
-use crate::{Event, Happening, Prediction, Start, State};
+use crate::{Event, Happening, Start, State};
 
 /// Two parts are children if each has this share of the object's area, and both together all but this share.
 const PART: f64 = 0.2;
@@ -67,8 +68,8 @@ pub(crate) fn embodied(
     let found = (!region.at_border)
         .then(|| begun(image, &start, Start::Rough, options).ok())
         .flatten()
-        .filter(|found| found.len() > 2 && overlap(found, &traced) > NEARLY);
-    Body::new(now, &found.unwrap_or(traced))
+        .filter(|found| found.points.len() > 2 && overlap(&found.points, &traced) > NEARLY);
+    Body::new(now, &found.map_or(traced, |found| found.points))
 }
 
 /// The two parts of a region with a neck that is darker (or otherwise more like the ground) than they are.
@@ -354,17 +355,5 @@ impl Tracker {
         (one_region || one_only)
             .then(|| embodied(image, now, view, &largest, &self.options.fit))
             .flatten()
-    }
-}
-
-/// What is said of an object that has begun.
-impl Step {
-    pub(crate) const fn begun() -> Self {
-        Self {
-            prediction: Prediction::Still,
-            confidence: 1.0,
-            state: State::Seen,
-            remeshed: false,
-        }
     }
 }

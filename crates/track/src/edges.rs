@@ -94,13 +94,24 @@ impl Edges {
             directions,
             offsets: vec![0.0; n],
         };
-        let half = half(window);
+        edges.offsets = edges
+            .beyond(window, strips, half(window))
+            .into_iter()
+            .map(|[offset, _]| offset)
+            .collect();
+        edges
+    }
+
+    /// How far out from where it lay in the first frame the edge of each node lies, and how firmly that is known, 0 … 1;
+    /// both smoothed along the curve. Cells.
+    pub(crate) fn beyond(&self, window: &Window, strips: &Strips<'_>, half: f32) -> Vec<[f64; 2]> {
+        let n = strips.curve.len();
         let mut sums = vec![0.0; n];
         let mut weights = vec![0.0; n];
         for i in 0..n {
             let near = NEAR.cast_signed();
             let values: Vec<f64> = (-near..=near)
-                .map(|d| f64::from(edges.slope(window, strips, i, d as f64)))
+                .map(|d| f64::from(self.slope(window, strips, i, d as f64 + self.offsets[i])))
                 .collect();
             let best = (0..values.len())
                 .max_by(|&a, &b| values[a].total_cmp(&values[b]))
@@ -119,12 +130,9 @@ impl Edges {
             }
         }
         let (sums, weights) = (ring::along(&sums, CALM), ring::along(&weights, CALM));
-        edges.offsets = sums
-            .iter()
-            .zip(&weights)
-            .map(|(sum, weight)| sum / (weight + 0.01))
-            .collect();
-        edges
+        let both = sums.iter().zip(&weights);
+        both.map(|(sum, weight)| [sum / (weight + 0.01), weight.sqrt()])
+            .collect()
     }
 
     /// The same for other nodes, at places between these.

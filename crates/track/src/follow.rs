@@ -2,13 +2,15 @@
 
 use glam::DVec2;
 
-use crate::body::{Body, Frame, Seen, Step};
+use crate::body::{Body, Seen};
+use crate::candidates::Predicted;
 use crate::correct::{ALL, Band, EDGES, Offsets, Pass, moved, offsets, simple};
 use crate::edges::half;
 use crate::evidence::{Evidence, Look};
-use crate::predict::{Flowed, Prediction, flowed};
+use crate::predict::Prediction;
 use crate::ring;
 use crate::seek::sought;
+use crate::step::{Frame, Step};
 use crate::tables::{Strips, depth};
 use crate::window::Window;
 
@@ -61,39 +63,7 @@ const ERRORS_ALONG: f64 = 2.0;
 /// Beyond the candidates a window shows so much more. Cells.
 pub(crate) const MARGIN: f64 = 24.0;
 
-/// Where an object may be in a frame, before it is looked at.
-#[derive(Debug)]
-pub(crate) struct Predicted {
-    candidates: Vec<(Prediction, Vec<DVec2>)>,
-    flow: Option<Flowed>,
-}
-
-impl Predicted {
-    /// Where it is most likely to be.
-    pub(crate) fn expected(&self) -> &[DVec2] {
-        let carried = self.flow.as_ref().filter(|flow| flow.share > 0.5);
-        carried.map_or(&self.candidates[0].1, |flow| &flow.bent)
-    }
-}
-
 impl Body {
-    /// Where it may be in the next frame.
-    pub(crate) fn predict(&self, frame: Frame<'_>) -> Predicted {
-        let block = self.block as f64;
-        let flow = frame.before.filter(|_| !self.left);
-        let flow = flow
-            .and_then(|before| flowed(before, frame.pyramid, &self.curve, &self.quality, block));
-        let mut candidates = vec![
-            (Prediction::Flown, self.motion.flown(&self.curve)),
-            (Prediction::Still, self.curve.clone()),
-        ];
-        if let Some(flow) = &flow {
-            candidates.push((Prediction::Carried, flow.carried.clone()));
-            candidates.push((Prediction::Bent, flow.bent.clone()));
-        }
-        Predicted { candidates, flow }
-    }
-
     /// Follow it into the next frame; `others` are where other objects are expected, in pixels.
     pub(crate) fn follow(
         &mut self,
@@ -102,6 +72,7 @@ impl Body {
         others: &[Vec<DVec2>],
     ) -> Step {
         let radius = ring::radius(&self.curve);
+        self.plain.clone_from(&predicted.plain);
         let mut window = self.window(frame, &predicted.candidates, 0.0);
         self.mark(&mut window, predicted.expected(), others);
         let mut best = self.best(&window, predicted, radius);
@@ -347,23 +318,30 @@ impl Body {
                 *quality = 0.0;
             }
         }
+        if let Some(curve) = placed(look, &seen, radius) {
+            seen.curve = curve;
+        }
         seen.errors = self.errors_of(look, &seen, radius, tether);
         seen
     }
 
-    /// Standard errors of nodes: by how much steeper their edge is than what else the window shows; where they were not
-    /// seen, by how far nodes of this object go.
+    /// Standard errors of nodes: by how much steeper their edge is than what else the window shows, by how far from it
+    /// they were left, all along a stretch; where they were not seen, by how far nodes of this object go.
     fn errors_of(&self, look: Look<'_>, seen: &Seen, radius: f64, most: f64) -> Vec<f64> {
         let strips = Strips::of(&seen.curve, radius);
         let unseen = (self.shape.deviation * radius).max(1.0);
 
+        let beyond = look
+            .edges
+            .map(|(edges, half)| edges.beyond(look.window, &strips, half));
         let own = |i: usize| {
             let Some((edges, half)) = look.edges else {
                 return most;
             };
             let slope = f64::from(edges.slope(look.window, &strips, i, edges.offsets[i]));
             let error = (ERROR * f64::from(half) / slope.max(1e-9))
-                .hypot(LAG * self.shape.deviation * radius);
+                .hypot(LAG * self.shape.deviation * radius)
+                .hypot(beyond.as_ref().map_or(0.0, |beyond| beyond[i][0]));
             let quality = seen.quality[i];
             quality * error.clamp(LEAST_ERROR, most) + (1.0 - quality) * unseen
         };
@@ -383,11 +361,27 @@ impl Body {
     }
 }
 
+/// A stretch of a curve is led to the edge beside it from less than so many cells, and this share of the way.
+const ASIDE: f64 = 0.75;
+const THERE: f64 = 0.7;
+
 /// The band in which a curve that was found is placed on its edge.
 const FINE: Band = Band {
     tether: 1.5,
     half: 2,
 };
+
+/// A curve that lies beside its edge all along a stretch, as the memory of its shape leaves it: most of the way there.
+fn placed(look: Look<'_>, seen: &Seen, radius: f64) -> Option<Vec<DVec2>> {
+    let (edges, half) = look.edges?;
+    let strips = Strips::of(&seen.curve, radius);
+    let beyond = edges.beyond(look.window, &strips, half);
+    let one = |(i, [off, firm]): (usize, &[f64; 2])| {
+        let way = if off.abs() < ASIDE { *off } else { 0.0 };
+        seen.curve[i] + THERE * seen.quality[i] * firm.min(1.0) * way * strips.normals[i]
+    };
+    Some(beyond.iter().enumerate().map(one).collect())
+}
 
 /// A curve placed on its edge, where it has one.
 fn fine(look: Look<'_>, curve: &[DVec2], radius: f64) -> Vec<DVec2> {

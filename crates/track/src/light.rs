@@ -45,6 +45,12 @@ pub(crate) fn levelled(before: &Pyramid, frame: &Image) -> (Image, Pyramid) {
     } else {
         Image::grey(pixels.levels().mapv(|level| level / gain))
     };
+    let image = match pixels.valid() {
+        Some(valid) => image
+            .with_mask(valid.clone())
+            .unwrap_or_else(|_| frame.clone()),
+        None => image,
+    };
     let own = pyramid(&image);
     (image, own)
 }

@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use crate::body::State;
 use crate::predict::Prediction;
+use crate::step::State;
 
 /// An object in a frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,7 +20,7 @@ pub struct Outline {
     pub errors: Vec<f64>,
     /// How it is known.
     pub state: State,
-    /// What was seen against what was learnt: about 1 at best, 0 for nothing.
+    /// What was seen against what was learnt: 1 at best, 0 for nothing.
     pub confidence: f64,
     /// The motion of its middle. Pixels a frame.
     pub velocity: DVec2,
@@ -34,7 +34,7 @@ pub struct Outline {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Happening {
-    /// It is followed from here on.
+    /// It is followed from here on. The confidence says how much of an object the start is.
     Begun,
     /// It is not seen from here on.
     Hidden,
@@ -50,6 +50,9 @@ pub enum Happening {
     Born,
     /// It cannot be told from that other any more.
     Merged(u32),
+    /// It and that other, which looks like it, have covered each other and have parted: from here on their numbers may
+    /// be exchanged. The confidence says how much alike they are.
+    Uncertain(u32),
     /// The frame could not be read.
     Skipped,
     /// The number of its nodes has changed.

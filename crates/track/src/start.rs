@@ -26,24 +26,46 @@ const CALM: f64 = 4.0;
 const RASTER: usize = 128;
 
 /// The outline that a start stands for.
+#[derive(Debug)]
+pub(crate) struct Begun {
+    pub points: Vec<DVec2>,
+    /// Whether it was looked for, and nothing speaks for what was found.
+    pub doubtful: bool,
+}
+
+/// The outline that a start stands for.
 pub(crate) fn begun(
     image: &Image,
     start: &Contour,
     rule: Start,
     options: &Options,
-) -> Result<Vec<DVec2>, FitError> {
-    let own = || start.points.clone();
+) -> Result<Begun, FitError> {
+    let own = || Begun {
+        points: start.points.clone(),
+        doubtful: false,
+    };
     if rule == Start::Exact && start.points.len() > 2 {
         return Ok(own());
     }
     let found = Prepared::of(image, options)?.fit(start)?;
+    let is_outline = Fit::is_outline(&found);
     if rule == Start::Rough || start.points.len() < 3 {
-        return Ok(found.contour.points);
+        return Ok(Begun {
+            points: found.contour.points,
+            doubtful: !is_outline,
+        });
     }
-    let taken = Fit::is_outline(&found)
+    let taken = is_outline
         && overlap(&start.points, &found.contour.points) < NEARLY
         && !is_on_edge(image, start, &found.contour, options);
-    Ok(if taken { found.contour.points } else { own() })
+    Ok(if taken {
+        Begun {
+            points: found.contour.points,
+            doubtful: false,
+        }
+    } else {
+        own()
+    })
 }
 
 /// Whether a start lies on an edge as it is drawn: whether there is as much of one on it as beside it.

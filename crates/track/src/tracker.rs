@@ -1,20 +1,24 @@
 //! Objects followed together through frames.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use fit::{Contour, Image};
 use flow::Pyramid;
 use glam::DVec2;
 
 use crate::assign::beside;
-use crate::body::{Body, Frame, Step};
+use crate::body::Body;
 use crate::contact;
 use crate::crowd::Crowd;
 use crate::divide::Division;
-use crate::light;
 use crate::ring;
 use crate::start::begun;
+use crate::step::{Frame, Step};
 use crate::{Event, Happening, Options, Outline, Prediction, State, TrackError, Tracked};
+use crate::{holes, light};
+
+/// The most confidence in a start where no outline was found.
+const DOUBTFUL: f64 = 0.3;
 
 /// Objects that are followed. A copy goes on as the original does.
 #[derive(Debug, Clone)]
@@ -34,6 +38,8 @@ pub struct Tracker {
     pub(crate) graves: Vec<Object>,
     /// Pairs of objects that cover each other, for how many frames, and the way between them to begin with.
     pub(crate) together: BTreeMap<[u32; 2], (u32, DVec2)>,
+    /// Pairs of objects that have covered each other and have not parted since.
+    pub(crate) covered: BTreeSet<[u32; 2]>,
 }
 
 /// An object with its number.
@@ -68,6 +74,7 @@ impl Tracker {
         if starts.is_empty() {
             return Err(TrackError::NoStart);
         }
+        let frame = &holes::filled(frame);
         let mut tracker = Self {
             options: options.clone(),
             size: frame.size(),
@@ -84,6 +91,7 @@ impl Tracker {
             divisions: Vec::new(),
             graves: Vec::new(),
             together: BTreeMap::new(),
+            covered: BTreeSet::new(),
         };
         let mut all = Vec::new();
         fit::in_order(
@@ -93,21 +101,21 @@ impl Tracker {
             |index, found| all.push((index, found)),
         );
         for (index, found) in all {
-            let points = found.map_err(|error| TrackError::Fit { index, error })?;
+            let found = found.map_err(|error| TrackError::Fit { index, error })?;
             let (width, height) = tracker.size;
             let now = Frame {
                 pixels: frame.pixels(),
                 pyramid: &tracker.before,
                 before: None,
             };
-            let body = Body::new(now, &points)
+            let body = Body::new(now, &found.points)
                 .or_else(|| Body::new(now, &starts[index].points))
                 .ok_or(TrackError::Start {
                     index,
                     width,
                     height,
                 })?;
-            tracker.add(body);
+            tracker.add(body, found.doubtful);
         }
         if options.births {
             let outlines = tracker.outlines();
@@ -138,7 +146,7 @@ impl Tracker {
             });
         }
         self.frame += 1;
-        let (frame, pyramid) = light::levelled(&self.before, frame);
+        let (frame, pyramid) = light::levelled(&self.before, &holes::filled(frame));
         let frame = &frame;
         let now = Frame {
             pixels: frame.pixels(),
@@ -213,6 +221,7 @@ impl Tracker {
             pyramid: &pyramid,
         };
         self.come_and_go(frame, now, &mut events);
+        self.mix(now, &mut events);
         self.merge(&mut events);
         self.give_up(&mut events);
         self.before = pyramid;
@@ -298,15 +307,18 @@ impl Tracker {
         tracked
     }
 
-    fn add(&mut self, body: Body) {
-        let object = Object::new(self.next_id, None, body, 0);
+    fn add(&mut self, body: Body, doubtful: bool) {
+        let mut object = Object::new(self.next_id, None, body, 0);
+        let most = if doubtful { DOUBTFUL } else { 1.0 };
+        let sure = object.body.clear.min(most);
+        object.step.confidence = sure;
         self.next_id += 1;
         self.first.outlines.push(object.outline());
         self.first.events.push(Event {
             frame: 0,
             id: object.id,
             what: Happening::Begun,
-            confidence: 1.0,
+            confidence: sure,
         });
         self.objects.push(object);
     }
@@ -341,7 +353,11 @@ impl Object {
             errors: self.body.errors(),
             points,
             state: step.state,
-            confidence: step.confidence,
+            confidence: if step.confidence.is_finite() {
+                step.confidence.clamp(0.0, 1.0)
+            } else {
+                0.0
+            },
             velocity,
             rotation,
             prediction: step.prediction,

@@ -55,6 +55,8 @@ enum Owner {
     Other,
     /// This one and another: which lies in front is not known.
     Shared,
+    /// Its pixels do not count.
+    Masked,
 }
 
 /// From pixels to cells of blocks of that side, and back.
@@ -139,7 +141,20 @@ impl Window {
         let features: Vec<Feature> = (0..width * height).map(feature).collect();
         let classes = vec![Cell::new(UNKNOWN); features.len()];
         let channels = if lightness.color { 4 } else { 2 };
-        let owners = vec![Owner::Free; features.len()];
+        let counts = |at: usize| {
+            pixels.valid().is_none_or(|valid| {
+                let (x, y) = (left + at % width, top + at / width);
+                (0..block * block).all(|k| valid[[y * block + k / block, x * block + k % block]])
+            })
+        };
+        let owner = |at: usize| {
+            if counts(at) {
+                Owner::Free
+            } else {
+                Owner::Masked
+            }
+        };
+        let owners = (0..features.len()).map(owner).collect();
         Self {
             left,
             top,
@@ -174,7 +189,7 @@ impl Window {
 
     /// The class of a cell by its number.
     pub(crate) fn class_at(&self, at: usize, palette: &Palette) -> Option<u8> {
-        if self.owners[at] == Owner::Shared {
+        if self.says_nothing(at) {
             return None;
         }
         let known = self.classes[at].get();
@@ -184,6 +199,11 @@ impl Window {
         let class = palette.nearest(&self.features[at]);
         self.classes[at].set(class);
         Some(class)
+    }
+
+    /// Whether what a cell shows is of an object that is not known, or does not count.
+    fn says_nothing(&self, at: usize) -> bool {
+        matches!(self.owners[at], Owner::Shared | Owner::Masked)
     }
 
     /// Whether a place belongs to another object alone.
@@ -196,7 +216,7 @@ impl Window {
     pub(crate) fn own(&mut self, expected: &[DVec2], other: &[DVec2]) {
         let (mine, theirs) = (self.inside(expected), self.inside(other));
         for ((owner, mine), theirs) in self.owners.iter_mut().zip(mine).zip(theirs) {
-            if theirs {
+            if theirs && *owner != Owner::Masked {
                 *owner = if mine { Owner::Shared } else { Owner::Other };
             }
         }
@@ -209,7 +229,7 @@ impl Window {
         reason = "checked to lie in the window"
     )]
     pub(crate) fn feature(&self, p: DVec2) -> Option<Feature> {
-        if self.owners[self.cell(p)?] == Owner::Shared {
+        if self.says_nothing(self.cell(p)?) {
             return None;
         }
         let x = (p.x - self.left as f64).clamp(0.0, (self.width - 1) as f64);

@@ -60,7 +60,22 @@ fn named(name: &str) -> Sequence {
     all.find(|sequence| sequence.name == name).unwrap()
 }
 
-/// The bars were written down in the design before this code was.
+/// What the page about following says of a drawn case: its overlap, and its bar if it has one.
+fn told(name: &str) -> Option<(f64, Option<f64>)> {
+    let page = include_str!("../../../docs/tracking.md");
+    let number = |cell: &str| cell.trim().parse::<f64>().ok();
+    page.lines().find_map(|line| {
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        cells.windows(3).find_map(|three| {
+            let named = three[0].split_whitespace().next() == Some(name);
+            number(three[1])
+                .filter(|_| named)
+                .map(|overlap| (overlap, number(three[2])))
+        })
+    })
+}
+
+/// The bars were written down in the design before this code was; the page says what comes out.
 #[test]
 fn one_object_is_followed_at_the_bar_of_each_case() {
     let bars = [
@@ -86,6 +101,14 @@ fn one_object_is_followed_at_the_bar_of_each_case() {
         let sequence = named(name);
         let got = mean(&overlaps(&sequence, &followed(&sequence)));
         assert!(got >= bar, "{name}: must be at least {bar}, got {got:.4}");
+        if name != "cross" {
+            let (told, told_bar) = told(name).unwrap();
+            assert!(
+                (got - told).abs() < 0.0015,
+                "{name}: {got:.4}, told: {told}"
+            );
+            assert_eq!(told_bar, Some(bar), "{name}");
+        }
         all.push(got);
     }
     // the contrast falls below twice the noise in frame 37
@@ -136,11 +159,21 @@ fn what_leaves_the_frame_is_found_again() {
     assert!(mean(&after) > 0.95, "{}", mean(&after));
 }
 
+/// Of the nodes of each sequence so many lie within 1.96 of their standard errors of the truth, at least.
 #[test]
 fn error_bars_hold_the_truth() {
-    let (mut within, mut all) = (0.0, 0.0);
-    for name in ["move_const", "turn", "breathe", "noise_cnr2", "amoeba_tex"] {
+    let least = [
+        ("move_const", 0.93),
+        ("turn", 0.93),
+        ("breathe", 0.93),
+        ("noise_cnr2", 0.9),
+        ("grow", 0.8),
+        ("tongue", 0.8),
+        ("amoeba_tex", 0.65),
+    ];
+    for (name, least) in least {
         let sequence = named(name);
+        let (mut within, mut all) = (0.0, 0.0);
         for tracked in followed(&sequence) {
             let truth = &sequence.truth(tracked.frame)[0].1;
             let outline = &tracked.outlines[0];
@@ -148,12 +181,12 @@ fn error_bars_hold_the_truth() {
                 let off = outline::distance(truth, true, *p);
                 within += f64::from(u8::from(off <= 1.96 * error));
                 all += 1.0;
+                // not by saying nothing
+                assert!(*error < 0.15 * 28.0, "{name}: {error}");
             }
         }
-        println!("{name} {:.3}", within / all);
+        assert!(within / all >= least, "{name}: {:.3}", within / all);
     }
-    let share = within / all;
-    assert!((0.85..=0.995).contains(&share), "{share}");
 }
 
 #[test]

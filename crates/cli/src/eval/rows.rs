@@ -194,10 +194,8 @@ pub(super) fn rows(case: &Case, way: &Way<'_>) -> Result<Vec<Row>, String> {
             }
             let here = found.contour().map(|fit| fit.contour.points.as_slice());
             row.same = match (on_plain, here) {
-                (Some(a), Some(b)) => {
-                    let dim = truth.mask.dim();
-                    iou(&filled(&[a], dim), &filled(&[b], dim)).ok()
-                }
+                // of the curves themselves: a pixel is much of a small object
+                (Some(a), Some(b)) => Some(::track::overlap(&a, b)),
                 (None, None) => Some(1.0),
                 _ => Some(0.0),
             };

@@ -195,9 +195,9 @@ pub(super) fn polygon(text: &str) -> Result<Vec<DVec2>, String> {
             }
         }
     }
-    if points.len() < 3 {
+    if points.len() == 2 || points.is_empty() {
         return Err(format!(
-            "a polygon must have at least 3 points, got {}",
+            "a polygon must have at least 3 points (or 1, for a click), got {}",
             points.len()
         ));
     }

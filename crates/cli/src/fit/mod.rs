@@ -1,6 +1,7 @@
 //! `snake fit`: the outlines of one picture or of many.
 
 mod batch;
+mod beside;
 mod film;
 mod flags;
 mod former;

@@ -12,6 +12,7 @@ use scene::fit::{
 };
 use scene::snake::Outcome;
 
+use super::beside::in_contact;
 use super::film::Moments;
 use super::flags::Flags;
 use super::options::by_flag;
@@ -40,6 +41,16 @@ pub(super) struct Found {
     pub(super) plucked: Option<Plucked>,
     /// How it moved, if that was watched.
     pub(super) moments: Option<Moments>,
+}
+
+impl Found {
+    /// It is unsure, and why.
+    pub(super) fn doubtful(&mut self, why: &str) {
+        self.unsure = Some(why.to_owned());
+        if let Some(shape) = &mut self.shape {
+            noted(shape, "unsure", self.measured);
+        }
+    }
 }
 
 /// What was measured of how sure an outline is.
@@ -71,6 +82,19 @@ pub(super) fn all(
 ) -> Result<Vec<Found>, SceneError> {
     let stem = &stem(name);
     let image = Image::of(Arc::<Picture>::clone(picture));
+    let soft = match (&flags.from, options.method) {
+        (Some(from), Method::Search) => from.probabilities(flags, stem)?,
+        _ => None,
+    };
+    let image = match &soft {
+        Some(soft) => {
+            words.say("note: --from: the outline is searched by these probabilities too");
+            image
+                .with_prior(soft)
+                .map_err(|error| key("--from", error))?
+        }
+        None => image,
+    };
     let ready = || Prepared::of(&image, options).map_err(|e| by_flag(&e));
     let (prepared, mut found) = match (&flags.seeds, &flags.from) {
         (Some(seeds), _) => (None, seeds.outlines(picture, flags, stem)?),
@@ -81,7 +105,10 @@ pub(super) fn all(
             for note in picture.notes() {
                 words.say(&format!("note: {note}"));
             }
-            let found = outlines(&prepared, &starts, flags, stop, words)?;
+            let mut found = outlines(&prepared, &starts, flags, stop, words)?;
+            if options.method == Method::Search && found.len() > 1 {
+                in_contact(&mut found);
+            }
             (Some(prepared), found)
         }
         (None, None) => (None, Vec::new()), // refused with the flags

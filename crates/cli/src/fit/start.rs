@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec2;
 use io::shapes::{self, Column, Origin, Reading, Shape};
 use scene::SceneError;
+use scene::field::Grid;
 use scene::fit::Contour;
 
 use super::flags::{self, Flags};
@@ -120,6 +121,18 @@ impl Start {
         stem: &str,
     ) -> Result<(Vec<Shape>, Vec<String>), SceneError> {
         self.outlines(&reading(flags)?, stem)
+    }
+
+    /// What a network says of the pixels of a picture of that name, if the file of the start is its soft output.
+    pub(super) fn probabilities(
+        &self,
+        flags: &Flags,
+        stem: &str,
+    ) -> Result<Option<Grid>, SceneError> {
+        match self.file(stem) {
+            Some(path) => Ok(shapes::load_soft(&path, &reading(flags)?)?),
+            None => Ok(None),
+        }
     }
 
     /// The outlines of a picture of that name, read so, and what people should know of how they were read.

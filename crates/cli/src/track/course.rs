@@ -11,6 +11,9 @@ use super::run::Told;
 use super::sinks::{Happened, Seen, Sinks};
 use crate::args::Words;
 
+/// A start of less confidence is one that is not sure to be of an object.
+const SURE: f64 = 0.5;
+
 /// Objects beyond which what happens to each is only written.
 const FEW: usize = 10;
 
@@ -31,6 +34,10 @@ pub(super) struct Tally {
     pub(super) objects: BTreeSet<u32>,
     pub(super) broken: Vec<String>,
     pub(super) lost: BTreeSet<u32>,
+    /// Objects whose starts are not sure to be of any.
+    pub(super) unsure: BTreeSet<u32>,
+    /// Objects whose numbers may have been exchanged.
+    pub(super) uncertain: BTreeSet<u32>,
     /// Objects that were not seen in the last frame.
     pub(super) hidden: BTreeSet<u32>,
     pub(super) alive: usize,
@@ -38,6 +45,8 @@ pub(super) struct Tally {
     pub(super) waited: BTreeSet<u32>,
     pub(super) divided: usize,
     pub(super) born: usize,
+    /// Pixels of the last frame that do not count.
+    pub(super) masked: usize,
     /// Outlines that were not seen, of all.
     pub(super) coasting: usize,
     pub(super) outlines: usize,
@@ -70,6 +79,16 @@ impl Course {
             ));
             self.tally.broken.push(name.clone());
         }
+        if told.masked > 0 && told.masked != self.tally.masked {
+            words.say(&format!(
+                "frame {frame}, {name}: {} no numbers or left out, and not counted",
+                match told.masked {
+                    1 => "1 pixel is".to_owned(),
+                    many => format!("{many} pixels are"),
+                }
+            ));
+        }
+        self.tally.masked = told.masked;
         let mut seen = Vec::new();
         for outline in &told.outlines {
             let one = tracked(frame, outline, &told.given);
@@ -96,7 +115,7 @@ impl Course {
                 word: word(&event.what),
                 others: match &event.what {
                     Happening::Divided(both) => both.to_vec(),
-                    Happening::Merged(other) => vec![*other],
+                    Happening::Merged(other) | Happening::Uncertain(other) => vec![*other],
                     _ => Vec::new(),
                 },
                 confidence: event.confidence,
@@ -104,10 +123,11 @@ impl Course {
             .collect();
         self.count(frame, &seen, &happened);
         let few = self.tally.objects.len() <= FEW;
-        for one in happened
-            .iter()
-            .filter(|one| !matches!(one.word, "begun" | "skipped"))
-        {
+        let told = |one: &&Happened| match one.word {
+            "begun" => one.confidence < SURE,
+            word => word != "skipped",
+        };
+        for one in happened.iter().filter(told) {
             let text = one.to_string();
             if few {
                 words.say(&text);
@@ -140,6 +160,12 @@ impl Course {
                 }
                 "left" => {
                     tally.waited.insert(one.id);
+                }
+                "begun" if one.confidence < SURE => {
+                    tally.unsure.insert(one.id);
+                }
+                "uncertain" => {
+                    tally.uncertain.insert(one.id);
                 }
                 "divided" => tally.divided += 1,
                 "born" => tally.born += 1,
@@ -184,6 +210,7 @@ pub(super) const fn word(what: &Happening) -> &'static str {
         Happening::Divided(_) => "divided",
         Happening::Born => "born",
         Happening::Merged(_) => "merged",
+        Happening::Uncertain(_) => "uncertain",
         Happening::Skipped => "skipped",
         Happening::Mended => "mended",
         Happening::Remeshed => "remeshed",

@@ -16,8 +16,8 @@ Examples:
   snake track frames/ --from start.csv -o tracks.csv --resume
   snake track cells/ --seeds auto --at 40 --mend by_hand.csv -o tracks.csv
 
-Exit code 0: all objects were followed to the end. 1: one was lost or is not seen at the end, a frame could not be \
-read, or it was stopped. 2: refused, and why.";
+Exit code 0: all objects were followed to the end. 1: one was lost, is not seen at the end or was unsure from the \
+start, a frame could not be read, or it was stopped. 2: refused, and why.";
 
 #[derive(Debug, Clone, ClapArgs)]
 pub(crate) struct Flags {
@@ -36,7 +36,7 @@ pub(crate) struct Flags {
     #[arg(long, value_name = "SEEDS", conflicts_with = "from")]
     pub seeds: Option<Where>,
     /// The frame that the start is in, by its number from 0 or the name of its file. Frames before it are followed
-    /// back from it; those of a video or of standard input cannot be, and are left out.
+    /// back from it; those of a video or of standard input cannot be, and are left out, as with --births.
     #[arg(long, value_name = "FRAME")]
     pub at: Option<String>,
     /// How a start is taken: exactly as it is, roughly (the outline that is found about it), or whichever suits it.
@@ -60,7 +60,7 @@ pub(crate) struct Flags {
     /// Write a table with a row for each object in each frame: state, confidence, area, perimeter, place, velocity.
     #[arg(long, value_name = "CSV")]
     pub measure: Option<PathBuf>,
-    /// Write a table of what happened: begun, hidden, found, left, lost, divided, born, merged, mended.
+    /// Write a table of what happened: begun, hidden, found, left, lost, divided, born, merged, uncertain, mended.
     #[arg(long, value_name = "CSV")]
     pub events: Option<PathBuf>,
     /// Write what goes on along the outline of an object over the frames: a picture (png) or a table (csv).
@@ -83,14 +83,16 @@ pub(crate) struct Flags {
     /// Give up an object that was not seen for so many frames.
     #[arg(long, value_name = "N", default_value_t = 30)]
     pub patience: u32,
-    /// Objects may divide, and new ones be born, as cells do.
+    /// Objects may divide, and new ones be born, as cells do: onwards in time only, so that frames before --at are left
+    /// out.
     #[arg(long)]
     pub births: bool,
     /// Say of each frame how each object was found, and what happened.
     #[arg(long)]
     pub explain: bool,
-    /// Go on with the table of --out as if the run had not been ended: frames are followed again from the first, which
-    /// takes its time; what is there is compared, not written, and where it differs, the run is refused.
+    /// Go on with --out (csv, geojson, txt or a folder of labels) as if the run had not been ended: frames are followed
+    /// again from the first, which takes its time; what is there is compared, not written, and where it differs, the
+    /// run is refused.
     #[arg(long, requires = "out")]
     pub resume: bool,
     /// Refuse to write over a file that is there.

@@ -21,11 +21,12 @@ use ::track::{Happening, Options};
 use indicatif::ProgressBar;
 use io::frames::{Frame, Frames, Numbered};
 use io::tracks::TableFrames;
-use io::{Picture, PictureReading};
+use io::{Invalid, Picture, PictureReading};
 use scene::SceneError;
 
 use self::course::Course;
 pub(crate) use self::flags::{EXAMPLES, Flags};
+use self::numbers::Numbers;
 use self::plan::Plan;
 use self::run::{Facts, MOST_MISSING, Run, Told};
 use self::sinks::Sinks;
@@ -44,6 +45,7 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
     let reading = PictureReading {
         channel: flags.channel.clone(),
         as_stored: flags.as_stored,
+        invalid: Invalid::Mask,
         ..PictureReading::default()
     };
     let mut frames = Frames::open(&matched(&flags.frames)?, &reading)?;
@@ -93,8 +95,20 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
             ),
         ));
     }
+    if !flags.births {
+        followed_at_all(&facts, &numbers)?;
+    }
     let mut sinks = Sinks::begin(flags, &plan, &frames, &picture)?;
-    let begins = if seekable { 0 } else { at };
+    // a division seen backwards is two outlines on one object, of which neither way is right
+    let back = seekable && at > 0 && !flags.births;
+    if seekable && at > 0 && flags.births {
+        words.say(&format!(
+            "note: --births: objects are born and divide onwards in time only; the {} before --at are left out \
+             (without --births, the objects of the start are followed back through them)",
+            counted(at, "frame")
+        ));
+    }
+    let begins = if back { 0 } else { at };
     sinks.charts(numbers.first(), begins);
     if sinks.is_behind() {
         words.say("--resume: frames are followed again from the first; what is there is compared");
@@ -113,12 +127,8 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
         words,
         is_begun: false,
     };
-    let before = if seekable && at > 0 {
-        let back = Options {
-            births: false,
-            ..options.clone()
-        };
-        Some(begin(numbers, &back, true)?)
+    let before = if back {
+        Some(begin(numbers, &options, true)?)
     } else {
         None
     };
@@ -135,7 +145,7 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
     let stopped = stop.asked();
     let left = if stopped { frames.left() } else { Some(0) };
     if is_begun {
-        end(sinks, followed, stopped, words)?;
+        end(sinks, followed, (stopped, plan.format.grows()), words)?;
     } else {
         sinks.discard()?;
         followed?;
@@ -155,7 +165,7 @@ pub(crate) fn track(flags: &Flags, words: Words) -> Answer {
 fn end(
     sinks: Sinks<'_>,
     followed: Result<(), SceneError>,
-    stopped: bool,
+    (stopped, grows): (bool, bool),
     words: Words,
 ) -> Result<(), SceneError> {
     if sinks.is_behind() && (stopped || followed.is_err()) {
@@ -168,7 +178,7 @@ fn end(
         words.say(if kept.is_ok() {
             "ended by an error: what there was by then is written"
         } else {
-            "ended by an error, and not all can be written: a table stays as NAME.part, and --resume goes on with it"
+            "ended by an error, and not all can be written: what there is stays as NAME.part, and --resume goes on with it"
         });
     }
     followed?;
@@ -176,7 +186,12 @@ fn end(
         words.say(&format!("note: {note}"));
     }
     if stopped {
-        words.say(&format!("{STOPPED}; --resume goes on with a table"));
+        let more = if grows {
+            "; --resume goes on with it"
+        } else {
+            ""
+        };
+        words.say(&format!("{STOPPED}{more}"));
     }
     Ok(())
 }
@@ -246,11 +261,16 @@ impl Whole<'_, '_> {
             way.pop();
             for event in way.iter_mut().map(|told| &mut told.events) {
                 // what ends on the way back begins; that is told by the outlines
-                event.retain(|one| matches!(one.what, Happening::Mended | Happening::Skipped));
+                event.retain(|one| {
+                    matches!(
+                        one.what,
+                        Happening::Mended | Happening::Skipped | Happening::Uncertain(_)
+                    )
+                });
             }
             told.append(&mut way);
         }
-        let Some(to) = farthest.or((ways.at > 0 && seekable).then_some(ways.at)) else {
+        let Some(to) = farthest.or((!told.is_empty()).then_some(ways.at)) else {
             self.told(&first, Some(ways.picture))?;
             return self.onwards(run);
         };
@@ -318,6 +338,25 @@ fn facts(flags: &Flags) -> Result<Facts, SceneError> {
         }
     }
     Ok(facts)
+}
+
+/// Refuse what is given of objects that are not followed. (Where objects are born, that is known when their frames
+/// come.)
+fn followed_at_all(facts: &Facts, numbers: &Numbers) -> Result<(), SceneError> {
+    for (frame, one) in facts
+        .iter()
+        .flat_map(|(frame, list)| list.iter().map(move |one| (frame, one)))
+    {
+        if !numbers.is_known(one.id) {
+            let message = format!(
+                "frame {frame}, object {}: no such object is followed; needed: {}",
+                one.id,
+                numbers.list()
+            );
+            return Err(key("--mend", message));
+        }
+    }
+    Ok(())
 }
 
 /// Say what there is to say of the frames.

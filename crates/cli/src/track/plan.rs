@@ -40,9 +40,9 @@ impl Plan {
                 key("--out", message)
             })?,
         };
-        if flags.resume && (format != TrackFormat::Csv || is_standard(&out)) {
-            let message =
-                "goes on with a table; needed: --out with the name of a file that ends in .csv";
+        if flags.resume && (!format.grows() || is_standard(&out)) {
+            let message = "goes on with what grows frame by frame, and a ZIP, a COCO file or standard output does not; \
+                needed: --out with a name that ends in .csv, .geojson or .txt, or a folder of labels";
             return Err(key("--resume", message));
         }
         let film = flags.overlay.as_deref().map(|path| {

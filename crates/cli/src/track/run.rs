@@ -48,6 +48,8 @@ pub(super) struct Told {
     pub(super) broken: Option<String>,
     /// How many frames are missing before it that objects have gone on by.
     pub(super) missing: u64,
+    /// How many of its pixels do not count.
+    pub(super) masked: usize,
 }
 
 impl Run {
@@ -98,6 +100,7 @@ impl Run {
     ) -> Result<Told, SceneError> {
         let tracked = self.tracker.first().clone();
         let mut told = self.told(frame.index, &frame.name, tracked, None);
+        told.masked = masked(picture);
         self.given(&Image::of(Arc::<Picture>::clone(picture)), &mut told)?;
         self.seen = seen(&told);
         Ok(told)
@@ -130,6 +133,7 @@ impl Run {
                 let tracked = self.tracker.next(&image);
                 let tracked = tracked.map_err(|error| key("frames", error))?;
                 let mut told = self.told(index, &name, tracked, None);
+                told.masked = masked(&picture);
                 self.given(&image, &mut told)?;
                 (told, Some(picture))
             }
@@ -221,7 +225,9 @@ impl Run {
                 Happening::Divided(both) => {
                     *both = both.map(|id| self.numbers.of_object(id));
                 }
-                Happening::Merged(other) => *other = self.numbers.of_object(*other),
+                Happening::Merged(other) | Happening::Uncertain(other) => {
+                    *other = self.numbers.of_object(*other);
+                }
                 _ => {}
             }
         }
@@ -233,8 +239,15 @@ impl Run {
             given: BTreeSet::new(),
             broken,
             missing: 0,
+            masked: 0,
         }
     }
+}
+
+/// How many pixels of a picture do not count.
+fn masked(picture: &Picture) -> usize {
+    let valid = picture.valid();
+    valid.map_or(0, |valid| valid.iter().filter(|ok| !**ok).count())
 }
 
 fn seen(told: &Told) -> BTreeSet<u32> {

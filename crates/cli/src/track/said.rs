@@ -52,6 +52,11 @@ pub(super) fn summary(
     add(tally.born, "born");
     add(tally.lost.len(), "lost");
     add(tally.hidden.len(), "not seen in the last");
+    add(tally.unsure.len(), "unsure from the start");
+    add(
+        tally.uncertain.len(),
+        "whose numbers may have been exchanged",
+    );
     words.say(&text);
     if tally.coasting > 0 {
         words.say(&format!(
@@ -66,8 +71,11 @@ pub(super) fn summary(
             counted(tally.broken.len(), "frame")
         ));
     }
-    let good =
-        !stopped && tally.broken.is_empty() && tally.lost.is_empty() && tally.hidden.is_empty();
+    let good = !stopped
+        && tally.broken.is_empty()
+        && tally.lost.is_empty()
+        && tally.hidden.is_empty()
+        && tally.unsure.is_empty();
     words.end(&json!({
         "frames": tally.frames,
         "last_frame": tally.last,
@@ -78,6 +86,8 @@ pub(super) fn summary(
         "born": tally.born,
         "lost": tally.lost,
         "hidden_at_end": tally.hidden,
+        "unsure": tally.unsure,
+        "uncertain": tally.uncertain,
         "broken_frames": tally.broken,
         "left": left,
         "stopped": stopped,

@@ -39,7 +39,16 @@ impl fmt::Display for Happened {
         write!(f, "frame {}: object {} {}", self.frame, self.id, self.word)?;
         match (self.word, &self.others[..]) {
             ("divided", [a, b]) => write!(f, " into {a} and {b}"),
+            ("begun", _) => write!(
+                f,
+                " where nothing is seen of one: unsure (confidence {:.2})",
+                self.confidence
+            ),
             ("merged", [other]) => write!(f, " with {other}"),
+            ("uncertain", [other]) => write!(
+                f,
+                ": it has covered {other} and looks like it; their numbers may be exchanged from here on"
+            ),
             _ => Ok(()),
         }
     }
@@ -83,8 +92,8 @@ impl<'a> Sinks<'a> {
             (Some(format), Some(path)) => Some(FilmSeen::begin(path, format, picture, flags.rate)?),
             _ => None,
         };
-        let writer = if flags.resume && plan.format == TrackFormat::Csv {
-            TrackWriter::resume(plan.out())?
+        let writer = if flags.resume {
+            TrackWriter::resume(plan.out(), plan.format, &context)?
         } else {
             TrackWriter::begin(plan.out(), plan.format, &context)?
         };

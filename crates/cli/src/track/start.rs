@@ -1,12 +1,13 @@
 //! What is followed: the outlines of the first frame, or of another.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use ::track::{Options, Start};
 use glam::DVec2;
 use io::Picture;
 use io::frames::Frames;
-use io::shapes::{Reading, Shape};
+use io::shapes::{Reading, Shape, Value};
 use scene::SceneError;
 use scene::fit::Contour;
 
@@ -83,7 +84,7 @@ pub(super) fn starts(
         for note in notes {
             words.say(&format!("note: {note}"));
         }
-        shapes.extend(own);
+        shapes.extend(of_frame(own, at, words)?);
     }
     let numbers = Numbers::of(&shapes);
     let contour = |shape: &Shape| Contour {
@@ -91,6 +92,44 @@ pub(super) fn starts(
         closed: shape.closed.unwrap_or(true),
     };
     Ok((shapes.iter().map(contour).collect(), numbers))
+}
+
+/// The outlines of one frame, of a file that has those of several.
+fn of_frame(shapes: Vec<Shape>, at: usize, words: Words) -> Result<Vec<Shape>, SceneError> {
+    let frames: BTreeSet<usize> = shapes.iter().filter_map(Shape::frame).collect();
+    let (Some(first), Some(last)) = (frames.first(), frames.last()) else {
+        return Ok(shapes);
+    };
+    if frames.len() == 1 && *first != at {
+        words.say(&format!(
+            "note: --from: the outlines are said to be of frame {first}, and are taken for frame {at}"
+        ));
+    } else if !frames.contains(&at) {
+        let message = format!(
+            "has outlines of frames {first} to {last}, and none of frame {at}; needed: --at with one of them"
+        );
+        return Err(key("--from", message));
+    } else if frames.len() > 1 {
+        words.say(&format!(
+            "note: --from: of frames {first} to {last}, the outlines of frame {at} are taken"
+        ));
+    }
+    let several = frames.len() > 1;
+    let own = shapes
+        .into_iter()
+        .filter(|shape| !several || shape.frame() == Some(at));
+    Ok(own.map(of_track).collect())
+}
+
+/// An outline with the number of its object, where its file has one of its own for each frame.
+fn of_track(mut shape: Shape) -> Shape {
+    let number = match shape.properties.get("track") {
+        Some(Value::Number(number)) => Some(number.to_string()),
+        Some(Value::Text(text)) => Some(text.clone()),
+        _ => None,
+    };
+    shape.id = number.or(shape.id);
+    shape
 }
 
 /// How they are followed.

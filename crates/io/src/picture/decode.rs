@@ -5,15 +5,15 @@ use std::io::{BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
 use std::path::Path;
 use std::sync::Arc;
 
-use field::Grid;
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use ndarray::{Array2, Axis};
 
-use super::pixels::{Pixels, luma};
+use super::finite::{finite, grid, masked_colors};
+use super::pixels::Pixels;
 use super::source::{Found, after, check_size, cut};
 use super::tiff_file::{self, Grey};
-use super::{Invalid, Picture, PictureReading, jpeg, pfm, png, pnm, webp};
+use super::{Picture, PictureReading, jpeg, pfm, png, pnm, webp};
 use crate::limits::{MOST_PIXELS, MOST_STREAM, MOST_WHOLE};
 use crate::text::clip_to;
 
@@ -136,7 +136,7 @@ pub(super) fn in_order(
         Known::Jpeg => (jpeg::gather(input, most)?, ImageFormat::Jpeg),
         Known::Png => (png::gather(input, most)?, ImageFormat::Png),
         Known::Webp => (webp::gather(input)?, ImageFormat::WebP),
-        Known::Pfm => return of_channel(Picture::of_pixels(pfm::read(input, length, most)?), rule),
+        Known::Pfm => return of_channel(finite(pfm::read(input, length, most)?, rule)?, rule),
         Known::Pnm | Known::Tiff => {
             let head = pnm::head(input, length, most)?;
             let data = Cursor::new(head.bytes).chain(input.take(head.data));
@@ -289,24 +289,6 @@ pub(super) fn room(bytes: u64) -> Result<(), String> {
         .map_err(|message| format!("the picture {message}; a smaller one is needed"))
 }
 
-/// Grey levels, all of them finite, and which of them count.
-fn grid(mut levels: Grid, rule: &PictureReading) -> Result<(Grid, Option<Array2<bool>>), String> {
-    let mut valid = None;
-    if let Some(((y, x), level)) = levels.indexed_iter().find(|(_, v)| !v.is_finite()) {
-        if rule.invalid == Invalid::Refuse {
-            return Err(format!(
-                "pixel ({x}, {y}) is {level}; all must be finite numbers"
-            ));
-        }
-        let Some(&first) = levels.iter().find(|v| v.is_finite()) else {
-            return Err("not one of its pixels is a number; one at least is needed".to_owned());
-        };
-        valid = Some(levels.mapv(f64::is_finite));
-        levels.mapv_inplace(|level| if level.is_finite() { level } else { first });
-    }
-    Ok((levels, valid))
-}
-
 /// What to say of a file that cannot be decoded.
 pub(crate) fn broken(error: impl std::fmt::Display) -> String {
     let error = clip_to(&error.to_string(), 160);
@@ -369,27 +351,6 @@ fn seen(image: &DynamicImage, dim: (usize, usize)) -> Result<Option<Array2<bool>
         _ => return Ok(None),
     };
     Array2::from_shape_vec(dim, list).map(Some).map_err(broken)
-}
-
-/// Colors in floats of which some are no numbers: those pixels do not count.
-fn masked_colors(
-    mut colors: image::Rgb32FImage,
-    dim: (usize, usize),
-    rule: &PictureReading,
-) -> Result<Picture, String> {
-    let levels = colors
-        .pixels()
-        .map(|p| luma(p.0.map(|v| f64::from(v) * 255.0)));
-    let levels = Grid::from_shape_vec(dim, levels.collect()).map_err(broken)?;
-    let (levels, valid) = grid(levels, rule)?;
-    colors
-        .iter_mut()
-        .filter(|v| !v.is_finite())
-        .for_each(|v| *v = 0.0);
-    let mut picture = Picture::of_pixels(Pixels::FloatColors(Arc::new(colors)));
-    picture.levels = std::sync::OnceLock::from(levels);
-    picture.valid = valid;
-    Ok(picture)
 }
 
 pub(super) fn is_grey<T: PartialEq>([r, g, b]: [T; 3]) -> bool {

@@ -11,6 +11,7 @@
 //! transparent altogether (alpha 0), but where all are. Any other alpha changes nothing.
 
 mod decode;
+mod finite;
 mod jpeg;
 mod memory;
 mod numbers;

@@ -84,9 +84,6 @@ pub(super) fn read(
     for row in raw.chunks_exact(row).rev() {
         list.extend(row.chunks_exact(4).map(number));
     }
-    if !list.iter().all(|v| v.is_finite()) {
-        return Err("a pixel is no finite number; all must be".to_owned());
-    }
     if color {
         let colors = Rgb32FImage::from_raw(width, height, list).ok_or_else(cut)?;
         return Ok(Pixels::FloatColors(Arc::new(colors)));

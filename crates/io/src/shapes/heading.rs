@@ -28,7 +28,7 @@ const Y: [&str; 9] = [
     "ycoord",
 ];
 /// Names of a column that tells curves apart.
-const CURVE: [&str; 15] = [
+const CURVE: [&str; 14] = [
     "curve",
     "contour",
     "id",
@@ -43,8 +43,9 @@ const CURVE: [&str; 15] = [
     "polygon",
     "shape",
     "index",
-    "frame",
 ];
+/// Names of a column that tells the frames of a sequence apart.
+const FRAME: [&str; 2] = ["frame", "frame_index"];
 /// Units that are pixels.
 const PIXELS: [&str; 5] = ["px", "pixel", "pixels", "pix", ""];
 /// Units that are not, where they follow a name without brackets.
@@ -59,6 +60,8 @@ pub(super) struct Columns {
     pub y: usize,
     /// Which curve a point belongs to.
     pub curve: Option<usize>,
+    /// In which frame of a sequence it is; the curve too, where nothing else tells curves apart.
+    pub frame: Option<usize>,
     /// Whether that curve is closed: 1 or 0.
     pub closed: Option<usize>,
     /// Which ring of its curve a point belongs to.
@@ -73,6 +76,7 @@ impl Columns {
         x: 0,
         y: 1,
         curve: None,
+        frame: None,
         closed: None,
         ring: None,
         count: 2,
@@ -163,10 +167,12 @@ impl Columns {
             };
             known.iter().find_map(at)
         };
+        let frame = find(&FRAME);
         Self {
             x: 0,
             y: 1,
-            curve: find(&CURVE),
+            curve: find(&CURVE).or(frame),
+            frame,
             closed: find(&["closed"]),
             ring: find(&["ring"]),
             count: names.len(),
@@ -253,6 +259,19 @@ mod tests {
             ("id,x,y,area", (1, 2)),
         ] {
             assert_eq!(of(line), Ok(at), "{line}");
+        }
+    }
+
+    #[test]
+    fn frames_tell_outlines_apart_where_nothing_else_does() {
+        for (line, curve, frame) in [
+            ("frame,id,x,y", Some(1), Some(0)),
+            ("x,y,frame", Some(2), Some(2)),
+            ("x,y,curve", Some(2), None),
+        ] {
+            let words: Vec<String> = line.split(',').map(str::to_owned).collect();
+            let columns = Columns::of(&words).unwrap();
+            assert_eq!((columns.curve, columns.frame), (curve, frame), "{line}");
         }
     }
 

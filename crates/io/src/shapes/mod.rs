@@ -77,6 +77,10 @@ pub(crate) use runs::of_columns;
 pub(crate) use trace::Labels;
 
 pub use format::{Column, Context, Format, Origin, Reading};
+pub use soft::load_soft;
+
+/// The property in which an outline of a sequence has its frame, from 0.
+const FRAME: &str = "frame";
 
 /// The outlines of a file.
 pub type Shapes = Vec<Shape>;
@@ -169,6 +173,19 @@ impl Shape {
             properties: self.properties.clone(),
         };
         Ok((1..).zip(parts).map(own).collect())
+    }
+
+    /// The frame of the sequence that it is of, from 0, if its file says so: by a column, or by a property `frame`.
+    #[must_use]
+    pub fn frame(&self) -> Option<usize> {
+        match self.properties.get(FRAME)? {
+            Value::Number(number) if number.fract() == 0.0 && (0.0..1e9).contains(number) => {
+                // exact: a whole number below 2^53
+                format!("{number}").parse().ok()
+            }
+            Value::Text(text) => text.parse().ok(),
+            _ => None,
+        }
     }
 
     /// Its first ring.

@@ -1,6 +1,14 @@
-//! Whether a picture of whole numbers is a mask with soft borders, and not labels.
+//! Soft masks: whether a picture of whole numbers is one and not labels, and the probabilities that one holds.
 
-use crate::picture::Numbers;
+use std::path::Path;
+
+use ndarray::Array2;
+
+use super::format::{self, Format, Reading};
+use crate::limits::MOST_STREAM;
+use crate::picture::{Numbers, numbers_of};
+use crate::read::read_bytes;
+use crate::{IoError, is_standard};
 
 /// Black and white are at most so many pixels from any grey of a soft mask, along rows and columns.
 const BORDER: usize = 4;
@@ -33,4 +41,32 @@ pub(super) fn is_soft(numbers: &Numbers) -> bool {
             };
             near(&black) && near(&white)
         })
+}
+
+/// The probabilities of a soft mask, as a network gives them; None of a file that is read as anything else.
+///
+/// # Errors
+///
+/// A file that cannot be read, or is too large.
+pub fn load_soft(path: &Path, reading: &Reading) -> Result<Option<Array2<f64>>, IoError> {
+    if is_standard(path) {
+        // it can be read once, for the outlines
+        return Ok(None);
+    }
+    let bytes = read_bytes(path, "a picture", |_| MOST_STREAM)?;
+    let picture = matches!(format::kind(&bytes), format::Kind::Picture);
+    Ok(picture.then(|| probabilities(&bytes, reading)).flatten())
+}
+
+/// The probabilities of a picture that is read as a soft mask; None of any other.
+fn probabilities(bytes: &[u8], reading: &Reading) -> Option<Array2<f64>> {
+    let numbers = numbers_of(bytes).ok()?;
+    let soft = match reading.format {
+        Some(format) => format == Format::Soft,
+        None => !numbers.whole || is_soft(&numbers),
+    };
+    let height = numbers.list.len().checked_div(numbers.width)?;
+    let list: Vec<f64> = numbers.list.iter().map(|v| v / numbers.white).collect();
+    let grid = Array2::from_shape_vec((height, numbers.width), list).ok()?;
+    (soft && !numbers.colors).then_some(grid)
 }

@@ -10,7 +10,7 @@ use super::format::{Column, Origin, Reading};
 use super::geojson::shift;
 use super::heading::{Columns, is_heading};
 use super::line::Separator;
-use super::{NodeColumn, Shape, Shapes};
+use super::{FRAME, NodeColumn, Shape, Shapes, Value};
 use crate::IoError;
 use crate::limits::MOST_NODES;
 
@@ -165,20 +165,19 @@ struct Mark {
     ring: usize,
 }
 
-/// The values of a column, numbered as they come.
+/// The values of columns, numbered as they come.
 #[derive(Default)]
-struct Names(BTreeMap<String, usize>);
+struct Names(BTreeMap<Name, usize>);
+
+/// What tells a curve, or a ring, from others: the entry of its column, and that of the column of frames.
+type Name = (Option<String>, Option<String>);
 
 impl Names {
-    /// The number of a value; 0 where the column is not there.
-    fn number(&mut self, name: Option<&str>) -> usize {
-        let Some(name) = name else { return 0 };
-        if let Some(&number) = self.0.get(name) {
-            return number;
-        }
+    /// The number of values; None stands for a column that is not there.
+    fn number(&mut self, (name, frame): (Option<&str>, Option<&str>)) -> usize {
+        let name = (name.map(str::to_owned), frame.map(str::to_owned));
         let number = self.0.len();
-        self.0.insert(name.to_owned(), number);
-        number
+        *self.0.entry(name).or_insert(number)
     }
 }
 
@@ -243,6 +242,7 @@ impl Reader {
         };
         self.separator = Some(separator);
         let (mut x, mut y, mut curve, mut closed, mut ring) = (None, None, None, None, None);
+        let mut frame = None;
         let mut count = 0;
         for entry in separator.split(line) {
             let number = || separator.number(entry);
@@ -250,6 +250,8 @@ impl Reader {
                 x = number();
             } else if count == columns.y {
                 y = number();
+            } else if Some(count) == columns.frame {
+                frame = Some(entry);
             } else if Some(count) == columns.curve {
                 curve = Some(entry);
             } else if Some(count) == columns.closed {
@@ -277,9 +279,9 @@ impl Reader {
         self.fresh = false;
         self.points.push(p);
         self.marks.push(Mark {
-            curve: self.curves.number(curve),
+            curve: self.curves.number((curve, frame)),
             closed,
-            ring: self.rings.number(ring),
+            ring: self.rings.number((ring, None)),
         });
         Ok(())
     }
@@ -351,9 +353,14 @@ impl Reader {
             own[ring].push(p);
         }
         if by_column {
-            for (name, number) in self.curves.0 {
+            for ((name, frame), number) in self.curves.0 {
                 if let Some(shape) = places.get(&number).and_then(|&at| shapes.get_mut(at)) {
-                    shape.id = Some(name);
+                    let count = frame.as_ref().and_then(|frame| frame.parse::<u32>().ok());
+                    if let Some(count) = count {
+                        let value = Value::Number(f64::from(count));
+                        shape.properties.insert(FRAME.to_owned(), value);
+                    }
+                    shape.id = name.or(frame);
                 }
             }
         }

@@ -21,6 +21,10 @@ use crate::write::{unwritable, write_whole};
 /// The name of the table.
 const TABLE: &str = "res_track.txt";
 
+/// What to say of labels that differ from those of a former run.
+const CHANGED: &str = "is not what comes out now: it is of other frames, another start, other flags or another version; \
+    needed: those of the former run, or another folder";
+
 #[derive(Debug)]
 pub(super) struct Folder {
     path: PathBuf,
@@ -28,6 +32,8 @@ pub(super) struct Folder {
     /// Digits of the numbers of frames.
     digits: usize,
     frames: usize,
+    /// How many frames a former run has left, which are compared.
+    former: usize,
     objects: BTreeMap<u32, Object>,
     /// Labels that are taken for later tracks of objects, the least of them last.
     taken: BTreeSet<u16>,
@@ -49,15 +55,26 @@ struct Track {
 }
 
 impl Folder {
-    pub(super) fn begin(path: &Path, context: &TrackContext) -> Result<Self, IoError> {
+    pub(super) fn begin(
+        path: &Path,
+        context: &TrackContext,
+        resume: bool,
+    ) -> Result<Self, IoError> {
         crate::ready_folder(path)?;
         let refuse = |error: std::io::Error| unwritable(path, error);
+        let mut former = 0;
         for entry in std::fs::read_dir(path).map_err(refuse)? {
             let name = entry.map_err(refuse)?.file_name();
             let name = name.to_string_lossy();
-            if name == TABLE || (name.starts_with("mask") && name.ends_with(".tif")) {
+            let mask = name
+                .strip_prefix("mask")
+                .and_then(|rest| rest.strip_suffix(".tif"));
+            if resume {
+                let number = mask.and_then(|digits| digits.parse::<usize>().ok());
+                former = former.max(number.map_or(0, |number| number.saturating_add(1)));
+            } else if name == TABLE || mask.is_some() {
                 let message = format!(
-                    "has results already, as {name}; needed: another folder, or remove them"
+                    "has results already, as {name}; needed: another folder, go on with them (--resume), or remove them"
                 );
                 return Err(IoError::file(path, message));
             }
@@ -68,9 +85,14 @@ impl Folder {
             size: context.size,
             digits: last.to_string().len().max(3),
             frames: 0,
+            former,
             objects: BTreeMap::new(),
             taken: BTreeSet::new(),
         })
+    }
+
+    pub(super) const fn is_behind(&self) -> bool {
+        self.frames < self.former
     }
 
     fn refuse(&self, frame: usize, what: impl std::fmt::Display) -> IoError {
@@ -158,11 +180,27 @@ impl Folder {
             encoder.write_image::<colortype::Gray16>(width, height, list)
         });
         written.map_err(|error| self.refuse(frame, error))?;
+        let is_there = frame < self.former && path.exists();
         self.frames = frame + 1;
-        write_whole(&path, bytes.get_ref())
+        if !is_there {
+            return write_whole(&path, bytes.get_ref());
+        }
+        let old = std::fs::read(&path)
+            .map_err(|error| IoError::file(&path, format!("cannot be read: {error}")))?;
+        if old == *bytes.get_ref() {
+            return Ok(());
+        }
+        Err(IoError::file(&path, CHANGED))
     }
 
     pub(super) fn end(self) -> Result<Vec<String>, IoError> {
+        if self.is_behind() {
+            let message = format!(
+                "has labels of {} frames, and only {} were followed; the table is not changed",
+                self.former, self.frames
+            );
+            return Err(IoError::file(&self.path, message));
+        }
         let mut lines: BTreeMap<u16, String> = BTreeMap::new();
         let (mut cut, mut apart) = (0, 0);
         for object in self.objects.values() {

@@ -1,39 +1,41 @@
 //! Tracks as `GeoJSON`: a feature for each outline of each frame, written as they come.
 
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::json;
 
+use super::growing::Growing;
 use super::{TrackContext, Tracked};
 use crate::IoError;
 use crate::shapes::feature;
-use crate::write::{Whole, unwritable};
+
+const HEAD: &str = "{\"type\":\"FeatureCollection\",\"features\":[";
 
 #[derive(Debug)]
 pub(super) struct Features {
-    path: PathBuf,
-    file: Whole,
-    sequence: serde_json::Value,
+    file: Growing,
     count: usize,
 }
 
 impl Features {
-    pub(super) fn begin(path: &Path, context: &TrackContext) -> Result<Self, IoError> {
+    pub(super) fn begin(
+        path: &Path,
+        context: &TrackContext,
+        resume: bool,
+    ) -> Result<Self, IoError> {
         let (width, height) = context.size;
-        let mut all = Self {
-            path: path.to_owned(),
-            file: Whole::begin(path)?,
-            sequence: json!({"name": context.name, "width": width, "height": height}),
-            count: 0,
+        let sequence = json!({"name": context.name, "width": width, "height": height});
+        let tail = format!("\n],\"sequence\":{sequence}}}\n");
+        let file = if resume {
+            Growing::resume(path, HEAD, &tail)?
+        } else {
+            Growing::begin(path, HEAD, &tail)?
         };
-        all.put("{\"type\":\"FeatureCollection\",\"features\":[")?;
-        Ok(all)
+        Ok(Self { file, count: 0 })
     }
 
-    fn put(&mut self, text: &str) -> Result<(), IoError> {
-        let written = self.file.write_all(text.as_bytes());
-        written.map_err(|error| unwritable(&self.path, error))
+    pub(super) const fn is_behind(&self) -> bool {
+        self.file.is_behind()
     }
 
     pub(super) fn frame(
@@ -49,16 +51,17 @@ impl Features {
             shape.properties.insert("frame_name".to_owned(), name);
             let text = feature(self.count + 1, &shape)?.to_string();
             let before = if self.count == 0 { "\n" } else { ",\n" };
-            self.put(before)?;
-            self.put(&text)?;
+            self.file.put(&format!("{before}{text}"))?;
             self.count += 1;
         }
         Ok(())
     }
 
-    pub(super) fn end(mut self) -> Result<(), IoError> {
-        let tail = format!("\n],\"sequence\":{}}}\n", self.sequence);
-        self.put(&tail)?;
+    pub(super) fn end(self) -> Result<(), IoError> {
         self.file.end()
+    }
+
+    pub(super) fn discard(self) -> Result<(), IoError> {
+        self.file.discard()
     }
 }

@@ -1,24 +1,21 @@
-//! Tracks as a table `frame,id,x,y` that grows: begun, or gone on with where what is there is the same.
+//! A file that grows frame by frame: begun, or gone on with where what is there is the same.
 
-use std::fmt::Write as _;
 use std::fs::{File, OpenOptions};
 use std::io::{BufReader, Read, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
-use super::Tracked;
 use crate::write::{Whole, followed, is_stream, unwritable};
 use crate::{IoError, is_standard};
-
-/// The first line.
-const HEADING: &str = "frame,id,x,y\n";
 
 /// Bytes that are looked through at a time for the end of the last line.
 const BLOCK: u64 = 1 << 16;
 
-/// A table that grows.
+/// A file that grows.
 #[derive(Debug)]
-pub(super) struct Table {
+pub(super) struct Growing {
     path: PathBuf,
+    /// What it ends with.
+    tail: String,
     place: Place,
 }
 
@@ -32,7 +29,7 @@ enum Place {
     Former(Former),
 }
 
-/// A file that grows.
+/// What is there of it by now.
 #[derive(Debug)]
 struct Part {
     file: File,
@@ -46,7 +43,7 @@ struct Part {
 struct Former {
     reader: BufReader<File>,
     path: PathBuf,
-    /// What the table is called as long as it grows.
+    /// What the file is called as long as it grows.
     part: PathBuf,
     /// Bytes up to the end of the last whole line, and how many of them have been compared.
     length: u64,
@@ -55,15 +52,16 @@ struct Former {
     lines: usize,
 }
 
-/// What a table is called as long as it grows.
+/// What a file is called as long as it grows.
 fn part_of(path: &Path) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(".part");
     path.with_file_name(name)
 }
 
-impl Table {
-    pub(super) fn begin(path: &Path) -> Result<Self, IoError> {
+impl Growing {
+    /// Begin a file with these bytes, and end it with those.
+    pub(super) fn begin(path: &Path, head: &str, tail: &str) -> Result<Self, IoError> {
         let (path, refuse) = (path.to_owned(), |error| unwritable(path, error));
         let place = if is_standard(&path) || is_stream(&path) {
             Place::Stream(Box::new(Whole::begin(&path)?))
@@ -89,14 +87,15 @@ impl Table {
                 length: 0,
             })
         };
-        let mut table = Self { path, place };
-        table.put(HEADING)?;
-        Ok(table)
+        let tail = tail.to_owned();
+        let mut growing = Self { path, tail, place };
+        growing.put(head)?;
+        Ok(growing)
     }
 
-    /// Go on with what a former run has left: with the part of a table, or else the table. It stays as it is until all
+    /// Go on with what a former run has left: with the part of a file, or else the file. It stays as it is until all
     /// of it has been given again.
-    pub(super) fn resume(path: &Path) -> Result<Self, IoError> {
+    pub(super) fn resume(path: &Path, head: &str, tail: &str) -> Result<Self, IoError> {
         if is_standard(path) || is_stream(path) {
             let message = "only a file can be gone on with; the name of one is needed";
             return Err(IoError::file(path, message));
@@ -107,7 +106,7 @@ impl Table {
         let cut = part.is_file();
         let old = if cut { part.clone() } else { target };
         if !old.is_file() {
-            return Self::begin(path);
+            return Self::begin(path, head, tail);
         }
         crate::ready_file(path)?;
         let unread = |error| IoError::file(&old, format!("cannot be read: {error}"));
@@ -116,10 +115,11 @@ impl Table {
             // the last line of a run that was killed may be half a one, or no text at all
             whole_lines(&mut file).map_err(unread)?
         } else {
-            file.metadata().map_err(unread)?.len()
+            without(&mut file, tail.as_bytes()).map_err(unread)?
         };
-        let mut table = Self {
+        let mut growing = Self {
             path: path.to_owned(),
+            tail: tail.to_owned(),
             place: Place::Former(Former {
                 reader: BufReader::new(file),
                 path: old,
@@ -129,8 +129,8 @@ impl Table {
                 lines: 0,
             }),
         };
-        table.put(HEADING)?;
-        Ok(table)
+        growing.put(head)?;
+        Ok(growing)
     }
 
     /// Whether what is given is there already.
@@ -141,7 +141,8 @@ impl Table {
         }
     }
 
-    fn put(&mut self, text: &str) -> Result<(), IoError> {
+    /// Write what comes next.
+    pub(super) fn put(&mut self, text: &str) -> Result<(), IoError> {
         let mut bytes = text.as_bytes();
         if let Place::Former(former) = &mut self.place {
             let count = former.compare(bytes)?;
@@ -164,14 +165,17 @@ impl Table {
         written.map_err(|error| unwritable(&self.path, error))
     }
 
-    pub(super) fn frame(&mut self, frame: usize, tracked: &[&Tracked]) -> Result<(), IoError> {
-        self.put(&rows_of(frame, tracked))
-    }
-
     pub(super) fn end(self) -> Result<(), IoError> {
         let refuse = |error| unwritable(&self.path, error);
         let part = match self.place {
-            Place::Stream(stream) => return stream.end(),
+            Place::Stream(mut stream) => {
+                return match stream.write_all(self.tail.as_bytes()) {
+                    Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+                        Err(refuse(error))
+                    }
+                    _ => stream.end(),
+                };
+            }
             Place::Part(part) => part,
             Place::Former(former) if former.same < former.length => {
                 let message = format!(
@@ -188,11 +192,12 @@ impl Table {
         let mut whole = Whole::begin(&self.path)?;
         let mut rows = File::open(&path).map_err(refuse)?;
         std::io::copy(&mut rows, &mut whole).map_err(refuse)?;
+        whole.write_all(self.tail.as_bytes()).map_err(refuse)?;
         whole.end()?;
         std::fs::remove_file(&path).map_err(refuse)
     }
 
-    /// Leave nothing of a table that was begun; what a former run has left stays.
+    /// Leave nothing of a file that was begun; what a former run has left stays.
     pub(super) fn discard(self) -> Result<(), IoError> {
         match self.place {
             Place::Part(part) => {
@@ -243,7 +248,7 @@ impl Former {
         Ok(own.len())
     }
 
-    /// The part of the table, with what has been compared in it.
+    /// The part of the file, with what has been compared in it.
     fn go_on(&mut self) -> std::io::Result<Part> {
         if self.path != self.part {
             // in a file of its own first, so that an end on the way loses nothing
@@ -280,13 +285,15 @@ fn whole_lines(file: &mut File) -> std::io::Result<u64> {
     Ok(found)
 }
 
-fn rows_of(frame: usize, tracked: &[&Tracked]) -> String {
-    let mut text = String::new();
-    for one in tracked {
-        for p in &one.points {
-            // writing to a String cannot fail
-            let _ = writeln!(text, "{frame},{},{},{}", one.id, p.x, p.y);
-        }
-    }
-    text
+/// Bytes of a file without its tail, if it has that.
+fn without(file: &mut File, tail: &[u8]) -> std::io::Result<u64> {
+    let length = file.metadata()?.len();
+    let Some(begin) = length.checked_sub(tail.len() as u64) else {
+        return Ok(length);
+    };
+    file.seek(SeekFrom::Start(begin))?;
+    let mut end = Vec::new();
+    Read::take(&mut *file, tail.len() as u64).read_to_end(&mut end)?;
+    file.seek(SeekFrom::Start(0))?;
+    Ok(if end == tail { begin } else { length })
 }

@@ -20,6 +20,7 @@ mod ctc;
 mod ctc_folder;
 mod features;
 mod growing;
+mod points;
 mod rois;
 mod table;
 mod writer;
@@ -167,6 +168,12 @@ impl TrackFormat {
             .iter()
             .find(|(.., format)| *format == self)
             .map_or("csv", |(name, ..)| name)
+    }
+
+    /// Whether what was written of it stays when the program is ended, and can be gone on with.
+    #[must_use]
+    pub const fn grows(self) -> bool {
+        !matches!(self, Self::Coco | Self::ImageJ)
     }
 
     /// The format that a file of this name is written in; a folder, or a name without an ending, is one of the Cell

@@ -245,7 +245,7 @@ fn what_no_format_holds_is_refused_by_its_frame_and_leaves_nothing() {
             if path.is_dir() {
                 std::fs::remove_dir_all(&path).unwrap();
             }
-            let _ = std::fs::remove_file(folder.path().join("csv.part"));
+            let _ = std::fs::remove_file(folder.path().join(format!("{}.part", format.name())));
             error
         };
         let good = square(2, 1, (10.0, 10.0), 5.0);

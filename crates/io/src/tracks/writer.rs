@@ -3,21 +3,20 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use super::boxes::Boxes;
 use super::coco::Video;
 use super::ctc::Folder;
 use super::features::Features;
-use super::growing::Table;
+use super::growing::Growing;
 use super::rois::Rois;
-use super::{TrackContext, TrackFormat, Tracked};
+use super::{TrackContext, TrackFormat, Tracked, boxes, points};
 use crate::IoError;
 use crate::limits::{FARTHEST, MOST_NODES, MOST_WHOLE};
 
 /// A file, or a folder, of tracks that grows frame by frame.
 ///
-/// What it writes has its name when it is whole: a file stands beside its name until [`TrackWriter::end`], and one
-/// that is dropped before leaves nothing. A table is another matter: it grows as `NAME.part`, which stays when the
-/// program is ended, and which [`TrackWriter::resume`] goes on with.
+/// What it writes has its name when it is whole. Tables, `GeoJSON` and MOT grow as `NAME.part`, which stays when the
+/// program is ended, and so do the labels of a folder; [`TrackWriter::resume`] goes on with them. A ZIP or a video
+/// stands beside its name until [`TrackWriter::end`], and one that is dropped before leaves nothing.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -42,26 +41,62 @@ pub struct TrackWriter {
 
 #[derive(Debug)]
 enum Kind {
-    Table(Table),
+    /// Rows of points or of boxes.
+    Rows(Growing, Rows),
     Features(Features),
     Video(Box<Video>),
     Folder(Folder),
     Rois(Box<Rois>),
-    Boxes(Boxes),
 }
+
+/// What makes the rows of a frame.
+type Rows = fn(usize, &[&Tracked]) -> String;
 
 impl TrackWriter {
     /// Begin a file of that format, or a folder.
     ///
     /// # Errors
     ///
-    /// A place that cannot be written; for a table, a `NAME.part` that a former run has left; for labels, a folder
-    /// that has some already, or frames without a size; a ZIP or a video to standard output.
+    /// A place that cannot be written; a `NAME.part` that a former run has left; for labels, a folder that has some
+    /// already, or frames without a size; a ZIP or a video to standard output.
     pub fn begin(
         path: &Path,
         format: TrackFormat,
         context: &TrackContext,
     ) -> Result<Self, IoError> {
+        Self::open(path, format, context, false)
+    }
+
+    /// Go on with what a former run has left: `NAME.part` or else the file itself, or the labels of a folder; begin
+    /// where nothing is there. All frames are given again, from the first: what is there already is compared and not
+    /// written, and what comes behind it is. A last line of `NAME.part` that is not whole is written anew. Until then,
+    /// nothing is changed.
+    ///
+    /// # Errors
+    ///
+    /// As [`TrackWriter::begin`]; a heading that is another; a format that is only written as a whole, as a ZIP or a
+    /// video is.
+    pub fn resume(
+        path: &Path,
+        format: TrackFormat,
+        context: &TrackContext,
+    ) -> Result<Self, IoError> {
+        Self::open(path, format, context, true)
+    }
+
+    fn open(
+        path: &Path,
+        format: TrackFormat,
+        context: &TrackContext,
+        resume: bool,
+    ) -> Result<Self, IoError> {
+        if resume && !format.grows() {
+            let message = format!(
+                "{} is only written as a whole, and nothing of it is there before; needed: csv, geojson, mot or ctc",
+                format.name()
+            );
+            return Err(IoError::file(path, message));
+        }
         let sized = matches!(format, TrackFormat::Coco | TrackFormat::Ctc);
         let pixels = (context.size.0 as u64).saturating_mul(context.size.1 as u64);
         if sized && (pixels == 0 || pixels > MOST_WHOLE) {
@@ -74,30 +109,21 @@ impl TrackWriter {
                 ),
             ));
         }
-        let kind = match format {
-            TrackFormat::Csv => Kind::Table(Table::begin(path)?),
-            TrackFormat::GeoJson => Kind::Features(Features::begin(path, context)?),
-            TrackFormat::Coco => Kind::Video(Box::new(Video::begin(path, context)?)),
-            TrackFormat::Ctc => Kind::Folder(Folder::begin(path, context)?),
-            TrackFormat::ImageJ => Kind::Rois(Box::new(Rois::begin(path)?)),
-            TrackFormat::Mot => Kind::Boxes(Boxes::begin(path)?),
+        let rows = |head: &str| {
+            if resume {
+                Growing::resume(path, head, "")
+            } else {
+                Growing::begin(path, head, "")
+            }
         };
-        Ok(Self {
-            path: path.to_owned(),
-            next: 0,
-            kind,
-        })
-    }
-
-    /// Go on with a table, with `NAME.part` or else the table itself, or begin one where neither is there. All frames
-    /// are given again, from the first: what is there already is compared and not written, and what comes behind it is.
-    /// A last line of `NAME.part` that is not whole is written anew. Until then, nothing is changed.
-    ///
-    /// # Errors
-    ///
-    /// As [`TrackWriter::begin`]; a heading that is another.
-    pub fn resume(path: &Path) -> Result<Self, IoError> {
-        let kind = Kind::Table(Table::resume(path)?);
+        let kind = match format {
+            TrackFormat::Csv => Kind::Rows(rows(points::HEADING)?, points::rows),
+            TrackFormat::Mot => Kind::Rows(rows("")?, boxes::rows),
+            TrackFormat::GeoJson => Kind::Features(Features::begin(path, context, resume)?),
+            TrackFormat::Coco => Kind::Video(Box::new(Video::begin(path, context)?)),
+            TrackFormat::Ctc => Kind::Folder(Folder::begin(path, context, resume)?),
+            TrackFormat::ImageJ => Kind::Rois(Box::new(Rois::begin(path)?)),
+        };
         Ok(Self {
             path: path.to_owned(),
             next: 0,
@@ -109,7 +135,9 @@ impl TrackWriter {
     #[must_use]
     pub const fn is_behind(&self) -> bool {
         match &self.kind {
-            Kind::Table(table) => table.is_behind(),
+            Kind::Rows(growing, _) => growing.is_behind(),
+            Kind::Features(features) => features.is_behind(),
+            Kind::Folder(folder) => folder.is_behind(),
             _ => false,
         }
     }
@@ -122,8 +150,8 @@ impl TrackWriter {
     /// - An object that is given twice, or has the number 0.
     /// - An outline of one or two points, of too many, or with a point that is not finite or too far away.
     /// - A confidence that is not from 0 to 1.
-    /// - A full disk. The frames of a table that were written before are kept.
-    /// - In a table that is continued: a row that differs from the one in the file.
+    /// - A full disk. What was written of frames before is kept, but of a ZIP or a video.
+    /// - In what is continued: a frame that differs from what is there.
     pub fn frame(&mut self, frame: usize, name: &str, tracked: &[Tracked]) -> Result<(), IoError> {
         let refuse = |what: String| IoError::file(&self.path, format!("frame {frame}: {what}"));
         if frame < self.next {
@@ -148,12 +176,11 @@ impl TrackWriter {
             .filter(|one| !one.points.is_empty())
             .collect();
         match &mut self.kind {
-            Kind::Table(table) => table.frame(frame, &seen),
+            Kind::Rows(growing, rows) => growing.put(&rows(frame, &seen)),
             Kind::Features(features) => features.frame(frame, name, &seen),
             Kind::Video(video) => video.frame(frame, name, &seen),
             Kind::Folder(folder) => folder.frame(frame, &seen),
             Kind::Rois(rois) => rois.frame(frame, &seen),
-            Kind::Boxes(boxes) => boxes.frame(frame, &seen),
         }
     }
 
@@ -164,12 +191,11 @@ impl TrackWriter {
     /// A full disk, or a place that can no longer be written; a former run that went on farther.
     pub fn end(self) -> Result<Vec<String>, IoError> {
         match self.kind {
-            Kind::Table(table) => table.end().map(|()| Vec::new()),
+            Kind::Rows(growing, _) => growing.end().map(|()| Vec::new()),
             Kind::Features(features) => features.end().map(|()| Vec::new()),
             Kind::Video(video) => video.end().map(|()| Vec::new()),
             Kind::Folder(folder) => folder.end(),
             Kind::Rois(rois) => rois.end().map(|()| Vec::new()),
-            Kind::Boxes(boxes) => boxes.end().map(|()| Vec::new()),
         }
     }
 
@@ -177,10 +203,11 @@ impl TrackWriter {
     ///
     /// # Errors
     ///
-    /// A part of a table that cannot be removed.
+    /// A part of a file that cannot be removed.
     pub fn discard(self) -> Result<(), IoError> {
         match self.kind {
-            Kind::Table(table) => table.discard(),
+            Kind::Rows(growing, _) => growing.discard(),
+            Kind::Features(features) => features.discard(),
             // those stand beside their names until their ends
             _ => Ok(()),
         }

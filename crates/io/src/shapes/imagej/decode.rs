@@ -11,7 +11,7 @@ use super::{
 use crate::shapes::budget::{Budget, point, unrepeated};
 use crate::shapes::flatten;
 use crate::shapes::format::{Origin, Reading};
-use crate::shapes::{Shape, Shapes, Value};
+use crate::shapes::{FRAME, Shape, Shapes, Value};
 
 /// Numbers of whole coordinates below which they are taken to be without a sign.
 const LEAST: i32 = -5000;
@@ -20,6 +20,8 @@ const FLOATS: u16 = 222;
 const FLOAT_RECTANGLES: u16 = 223;
 /// Subtypes that are no outlines.
 const NO_OUTLINES: [(u16, &str); 2] = [(1, "a text"), (4, "a picture")];
+/// Where the head has the place in its stack.
+const POSITION: usize = 56;
 /// Letters of a name or of properties.
 const MOST_LETTERS: usize = 10_000;
 
@@ -116,6 +118,7 @@ pub(super) fn shapes(
         closed: (kind != POINT).then_some(!line),
         ..named(&bytes)
     };
+    placed(&mut shape, &bytes);
     let mut done: Vec<Vec<DVec2>> = Vec::new();
     for ring in rings {
         let points = ring.into_iter().map(|p| point(p.x, p.y).map(|p| p + shift));
@@ -317,4 +320,15 @@ fn named(bytes: &Bytes<'_>) -> Shape {
     }
     shape.properties = properties;
     shape
+}
+
+/// Note the place in its stack, from 1, as a frame, from 0, where nothing else says of which frame it is.
+fn placed(shape: &mut Shape, bytes: &Bytes<'_>) {
+    if let Some(frame) = bytes.long(POSITION).unwrap_or(0).checked_sub(1)
+        && shape.frame().is_none()
+        && let Ok(frame) = u32::try_from(frame)
+    {
+        let frame = Value::Number(f64::from(frame));
+        shape.properties.insert(FRAME.to_owned(), frame);
+    }
 }
