@@ -167,6 +167,7 @@ fn said(tracked: &Tracked, following: &Following) -> Vec<String> {
             Happening::Left => "has left the frame",
             Happening::Lost => "is lost",
             Happening::Merged(_) => "cannot be told from another one any more",
+            Happening::Uncertain(_) => "may have been taken for another one from here on",
             Happening::Skipped => "was carried over a frame that could not be read",
             _ => return None,
         };
