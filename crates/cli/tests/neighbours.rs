@@ -104,27 +104,27 @@ fn labels_in_contact_end_without_gap_or_overlap() {
 
 #[test]
 fn what_a_network_says_of_every_pixel_counts_and_not_only_its_outline_at_one_half() {
-    // two rings of edges, at 20 and at 26 pixels, equally strong; the outline at one half lies between them
+    // two rings of edges, equally strong; the outline at one half lies in the middle between them
     let folder = Folder::new();
     let far = |x: f64, y: f64| (x - 59.5).hypot(y - 59.5);
     folder.write(
         "rings.pgm",
         pgm(|x, y| {
-            200.0 - 70.0 * ((far(x, y) - 19.5).clamp(0.0, 1.0) + (far(x, y) - 25.5).clamp(0.0, 1.0))
+            200.0 - 70.0 * ((far(x, y) - 36.7).clamp(0.0, 1.0) + (far(x, y) - 42.3).clamp(0.0, 1.0))
         }),
     );
-    // how sure it is between 20 and 23, and between 23 and 26
+    // how sure it is between the inner ring and the middle, and between the middle and the outer one
     for (name, between, radius) in [
-        ("outer.pfm", [0.95, 0.45], 26.0),
-        ("inner.pfm", [0.55, 0.05], 20.0),
+        ("outer.pfm", [0.95, 0.45], 42.8),
+        ("inner.pfm", [0.55, 0.05], 37.2),
     ] {
         let mut soft = format!("Pf\n{SIDE} {SIDE}\n-1.0\n").into_bytes();
         for y in (0..SIDE).rev() {
             for x in 0..SIDE {
                 let sure: f32 = match far(x as f64, y as f64) {
-                    r if r < 20.0 => 0.97,
-                    r if r < 23.0 => between[0],
-                    r if r < 26.0 => between[1],
+                    r if r < 37.2 => 0.97,
+                    r if r < 40.0 => between[0],
+                    r if r < 42.8 => between[1],
                     _ => 0.03,
                 };
                 soft.extend(sure.to_le_bytes());

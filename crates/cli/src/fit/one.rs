@@ -17,7 +17,7 @@ use super::film::Moments;
 use super::flags::Flags;
 use super::options::by_flag;
 use super::results;
-use super::start::{contour, stem};
+use super::start::{Start, contour, stem};
 use crate::args::Words;
 use crate::commands::{bar, key};
 use crate::stop::Stop;
@@ -82,24 +82,13 @@ pub(super) fn all(
 ) -> Result<Vec<Found>, SceneError> {
     let stem = &stem(name);
     let image = Image::of(Arc::<Picture>::clone(picture));
-    let soft = match (&flags.from, options.method) {
-        (Some(from), Method::Search) => from.probabilities(flags, stem)?,
-        _ => None,
-    };
-    let image = match &soft {
-        Some(soft) => {
-            words.say("note: --from: the outline is searched by these probabilities too");
-            image
-                .with_prior(soft)
-                .map_err(|error| key("--from", error))?
-        }
-        None => image,
-    };
     let ready = || Prepared::of(&image, options).map_err(|e| by_flag(&e));
     let (prepared, mut found) = match (&flags.seeds, &flags.from) {
         (Some(seeds), _) => (None, seeds.outlines(picture, flags, stem)?),
         (None, Some(from)) => {
-            let ((starts, notes), prepared) = (from.shapes(flags, stem)?, ready()?);
+            let (starts, notes) = from.shapes(flags, stem)?;
+            let image = expected(&image, from, options.method, flags, stem, words)?;
+            let prepared = Prepared::of(&image, options).map_err(|e| by_flag(&e))?;
             results::check_count(flags, starts.len())?;
             notes.iter().for_each(|note| say(note));
             for note in picture.notes() {
@@ -118,6 +107,26 @@ pub(super) fn all(
         pluck(&prepared, kick, &mut found, words)?;
     }
     Ok(found)
+}
+
+/// The image with what a network says of its pixels, where the start is its soft output.
+fn expected(
+    image: &Image,
+    from: &Start,
+    method: Method,
+    flags: &Flags,
+    stem: &str,
+    words: Words,
+) -> Result<Image, SceneError> {
+    if method != Method::Search {
+        return Ok(image.clone());
+    }
+    let Some(soft) = from.probabilities(flags, stem)? else {
+        return Ok(image.clone());
+    };
+    words.say("note: --from: the outline is searched by these probabilities too");
+    let image = image.clone().with_prior(&soft);
+    image.map_err(|error| key("--from", error))
 }
 
 /// Read a picture, or that page of it, as the flags say.
