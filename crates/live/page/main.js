@@ -567,8 +567,8 @@ async function engine() {
   if (inside) {
     const text = inside.textContent || "";
     const packed = Uint8Array.from(atob(text.trim()), (c) => c.charCodeAt(0));
-    const bytes = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return Wasm.of(await new Response(bytes).arrayBuffer());
+    const { unpack } = await import("./unpack.js");
+    return Wasm.of(unpack(packed));
   }
   const scheme = location.protocol === "https:" ? "wss" : "ws";
   return new Socket(`${scheme}://${location.host}/socket${location.search}`);

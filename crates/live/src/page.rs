@@ -39,5 +39,6 @@ page![
     "socket.js": "text/javascript; charset=utf-8",
     "tiles.js": "text/javascript; charset=utf-8",
     "tools.js": "text/javascript; charset=utf-8",
+    "unpack.js": "text/javascript; charset=utf-8",
     "wasm.js": "text/javascript; charset=utf-8",
 ];
