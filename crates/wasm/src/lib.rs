@@ -72,6 +72,7 @@ impl Page {
 }
 
 /// Make the input so many bytes long: its address, or null if there is no memory for it.
+#[must_use]
 #[cfg_attr(target_family = "wasm", unsafe(no_mangle))]
 pub extern "C" fn input(length: usize) -> *mut u8 {
     PAGE.with_borrow_mut(|page| {
@@ -85,6 +86,7 @@ pub extern "C" fn input(length: usize) -> *mut u8 {
 }
 
 /// The address of the output.
+#[must_use]
 #[cfg_attr(target_family = "wasm", unsafe(no_mangle))]
 pub extern "C" fn output() -> *const u8 {
     PAGE.with_borrow(|page| page.output.as_ptr())
@@ -98,6 +100,7 @@ pub extern "C" fn call() -> usize {
 
 /// Let the engine work: so many milliseconds have passed, and the last tick took so many. Whether there is something new
 /// to be drawn.
+#[must_use]
 #[cfg_attr(target_family = "wasm", unsafe(no_mangle))]
 pub extern "C" fn tick(passed: f64, took: f64) -> bool {
     PAGE.with_borrow_mut(|page| page.engine.tick(passed, took))
@@ -110,12 +113,14 @@ pub extern "C" fn frame() -> usize {
 }
 
 /// The length of the text that says why a call has ended in a trap.
+#[must_use]
 #[cfg_attr(target_family = "wasm", unsafe(no_mangle))]
 pub extern "C" fn failure() -> usize {
     FAILURE.get().len()
 }
 
 /// The address of that text.
+#[must_use]
 #[cfg_attr(target_family = "wasm", unsafe(no_mangle))]
 pub extern "C" fn failed_at() -> *const u8 {
     FAILURE.get().as_ptr()
