@@ -186,7 +186,7 @@ impl Engine {
                             text.len()
                         )));
                     }
-                    // files that it names are looked for nowhere: a page has none
+                    // files that it names are looked for where the program runs; a page by itself has none
                     Some(text) => SceneText::parse(name, text, Path::new("")),
                     None => SceneText::named(name),
                 };

@@ -1,4 +1,5 @@
 //! What was done replays to the same bytes, and can be taken back to the first state's.
+//! Long because each test is a story of its own, from an opened scene or picture to its replay.
 
 #![allow(
     clippy::unwrap_used,

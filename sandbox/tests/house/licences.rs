@@ -11,11 +11,16 @@ use std::process::Command;
 const FREE: [&str; 4] = ["MIT", "Apache-2.0", "Zlib", "BSD-2-Clause"];
 
 /// Crates whose licence asks for something besides, and why that is fine.
-const ASKED: [(&str, &str, &str); 2] = [
+const ASKED: [(&str, &str, &str); 3] = [
     (
         "unicode-ident",
         "(MIT OR Apache-2.0) AND Unicode-3.0",
         "its tables are the Unicode Consortium's; the terms ask for their notice, which it ships",
+    ),
+    (
+        "matchit",
+        "MIT AND BSD-3-Clause",
+        "a part is from Go's httprouter; the terms ask for their notice, which it ships, and forbid its name in praise",
     ),
     (
         "target-lexicon",
@@ -25,7 +30,8 @@ const ASKED: [(&str, &str, &str); 2] = [
 ];
 
 /// Crates that a build of everything but the benches has in more than one version, and why.
-const TWICE: [(&str, &str); 2] = [
+const TWICE: [(&str, &str); 3] = [
+    ("getrandom", "temporary files and the window's socket ask for different ones"),
     ("miniz_oxide", "png and flate2 ask for different ones"),
     (
         "syn",

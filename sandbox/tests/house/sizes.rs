@@ -49,7 +49,7 @@ const EXPORTS_TODAY: [(&str, usize); 11] = [
     ("field", 83),
     ("fit", 33),
     ("integrator", 24),
-    ("io", 24), // and modules of their own for outlines, sequences, films, charts
+    ("io", 25), // and modules of their own for outlines, sequences, films, charts
     ("outline", 38),
     ("scene", 27),
     ("snake", 57),

@@ -1,5 +1,6 @@
 //! Outlines as files: several in one file, each of one or more rings, with a name and whatever else
 //! a program notes beside it.
+//! Long because it is the door of all formats: what other crates call, each with its errors.
 //!
 //! [`load`] tells the [`Format`] of a file by its first bytes, [`Reading`] says what a file leaves
 //! open, and [`write()`] makes the bytes of any format but those that are read only. Inside, pixels
