@@ -100,7 +100,7 @@ impl SceneText {
     /// assert!(text.scene().is_err()); // there is no such file
     /// let ring = b"x,y\n4,8\n6,8\n6,9\n4,9\n".to_vec();
     /// let scene = text.with_files([("ring.csv".to_owned(), ring)].into()).scene()?;
-    /// assert_eq!(scene.start.len(), 4);
+    /// assert_eq!(scene.start.len(), 40); // nodes along the ring, as the text asks for
     /// # Ok::<(), scene::SceneError>(())
     /// ```
     #[must_use]

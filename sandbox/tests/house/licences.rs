@@ -31,7 +31,10 @@ const ASKED: [(&str, &str, &str); 3] = [
 
 /// Crates that a build of everything but the benches has in more than one version, and why.
 const TWICE: [(&str, &str); 3] = [
-    ("getrandom", "temporary files and the window's socket ask for different ones"),
+    (
+        "getrandom",
+        "temporary files and the window's socket ask for different ones",
+    ),
     ("miniz_oxide", "png and flate2 ask for different ones"),
     (
         "syn",
