@@ -30,12 +30,16 @@ const ASKED: [(&str, &str, &str); 3] = [
 ];
 
 /// Crates that a build of everything but the benches has in more than one version, and why.
-const TWICE: [(&str, &str); 3] = [
+const TWICE: [(&str, &str); 4] = [
     (
         "getrandom",
         "temporary files and the window's socket ask for different ones",
     ),
     ("miniz_oxide", "png and flate2 ask for different ones"),
+    (
+        "rand_core",
+        "random numbers of the window's socket and of the tests ask for different ones",
+    ),
     (
         "syn",
         "macros run by the compiler only; nothing of it is in a program",

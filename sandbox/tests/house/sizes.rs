@@ -51,7 +51,7 @@ const EXPORTS_TODAY: [(&str, usize); 11] = [
     ("integrator", 24),
     ("io", 25), // and modules of their own for outlines, sequences, films, charts
     ("outline", 38),
-    ("scene", 27),
+    ("scene", 28),
     ("snake", 57),
     ("snakes", 29), // what users see
     ("sandbox", 34),
