@@ -20,9 +20,9 @@
 //! Points `v` of index `i` minimise `∫ α |v'|² + β |v''|² − E(v)` with `E` the weighted sum of grey levels and of
 //! the size of their Sobel gradient. A step is implicit in the elastic part and explicit in the picture's
 //! (\[kass88\] Eq. 14 to 19), and its length is limited by a hyperbolic tangent. Between pixels `E` is the quadratic
-//! spline through them. Everything is counted in points, not in arc length: α and β mean another stiffness for another number
-//! of points. [`fit`](https://docs.rs/snakes) has none of these bounds; this crate is here for those who have their
-//! parameters.
+//! spline through them. Everything is counted in points, not in arc length: α and β mean another stiffness for
+//! another number of points. [`fit`](https://docs.rs/snakes) has none of these bounds; this crate is here for those
+//! who have their parameters.
 //!
 //! Two rules are stricter than what is usual. A snake that still moves one way is not at rest, however slowly it does
 //! ([`Stop::Settled`]); and one that has collapsed onto a point is tried again with points between its own

@@ -48,7 +48,8 @@ impl Past {
         self.0.iter().map(far).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether it still goes one way, and will go on for more than a tenth of so many pixels if it slows down as it has.
+    /// Whether it still goes one way, and will go on for more than a tenth of so many pixels if it slows down as it
+    /// has.
     pub(crate) fn drifts(&self, points: &[DVec2], way: f64) -> bool {
         let (Some(first), Some(middle)) = (self.0.front(), self.0.get(self.0.len() / 2)) else {
             return false;

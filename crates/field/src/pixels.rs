@@ -43,8 +43,8 @@ pub trait Pixels: fmt::Debug + Send + Sync {
         None
     }
 
-    /// What is known of each pixel before it is looked at: the logarithm of the odds that it is one of the object, as of
-    /// a network. None if nothing is.
+    /// What is known of each pixel before it is looked at: the logarithm of the odds that it is one of the object, as
+    /// of a network. None if nothing is.
     fn prior(&self) -> Option<&Grid> {
         None
     }

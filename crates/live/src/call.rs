@@ -33,11 +33,11 @@ struct Message {
 }
 
 impl Engine {
-    /// Carry out a message, a [`Packet`] as bytes, and answer by another one: `{"id", "ok"}` with what was asked for, or
-    /// `{"id", "error"}` with a sentence.
+    /// Carry out a message, a [`Packet`] as bytes, and answer by another one: `{"id", "ok"}` with what was asked for,
+    /// or `{"id", "error"}` with a sentence.
     ///
-    /// The words of a message are `{"id": 7, "do": ACTION}` with an [`Action`], or `ask` with a [`Question`], or `show` with
-    /// the parts of a frame that are wanted: `{"velocities": true, "forces": true, "energies": true}`.
+    /// The words of a message are `{"id": 7, "do": ACTION}` with an [`Action`], or `ask` with a [`Question`], or
+    /// `show` with the parts of a frame that are wanted: `{"velocities": true, "forces": true, "energies": true}`.
     pub fn call(&mut self, message: &[u8]) -> Vec<u8> {
         let mut answer = Packet::default();
         let mut id = 0;

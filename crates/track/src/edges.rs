@@ -102,8 +102,8 @@ impl Edges {
         edges
     }
 
-    /// How far out from where it lay in the first frame the edge of each node lies, and how firmly that is known, 0 … 1;
-    /// both smoothed along the curve. Cells.
+    /// How far out from where it lay in the first frame the edge of each node lies, and how firmly that is known, 0 …
+    /// 1; both smoothed along the curve. Cells.
     pub(crate) fn beyond(&self, window: &Window, strips: &Strips<'_>, half: f32) -> Vec<[f64; 2]> {
         let n = strips.curve.len();
         let mut sums = vec![0.0; n];

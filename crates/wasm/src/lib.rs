@@ -98,8 +98,8 @@ pub extern "C" fn call() -> usize {
     PAGE.with_borrow_mut(Page::call)
 }
 
-/// Let the engine work: so many milliseconds have passed, and the last tick took so many. Whether there is something new
-/// to be drawn.
+/// Let the engine work: so many milliseconds have passed, and the last tick took so many. Whether there is something
+/// new to be drawn.
 #[must_use]
 #[cfg_attr(target_family = "wasm", unsafe(no_mangle))]
 pub extern "C" fn tick(passed: f64, took: f64) -> bool {

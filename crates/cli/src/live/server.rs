@@ -1,7 +1,7 @@
 //! The server: the page and its socket, on the loopback address alone.
 //!
-//! A page of another site can reach any port of this machine. So the socket and the page ask for a secret that stands in
-//! the address, and whatever says that it comes from another host or origin is refused.
+//! A page of another site can reach any port of this machine. So the socket and the page ask for a secret that stands
+//! in the address, and whatever says that it comes from another host or origin is refused.
 
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::Arc;

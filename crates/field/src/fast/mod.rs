@@ -62,7 +62,8 @@ pub struct FastForce {
 }
 
 impl FastForce {
-    /// Prepares a recipe for `threads` threads (0 counts as 1; so does any number in a browser, where none can be started).
+    /// Prepares a recipe for `threads` threads (0 counts as 1; so does any number in a browser, where none can be
+    /// started).
     ///
     /// # Errors
     /// Numbers [`Recipe::validate`] refuses.

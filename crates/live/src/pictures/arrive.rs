@@ -1,4 +1,5 @@
-//! The way of an outline from its start: a body whose rest shape is what the search has found, let go where the start is.
+//! The way of an outline from its start: a body whose rest shape is what the search has found, let go where the start
+//! is.
 
 use glam::DVec2;
 use scene::elastic::{self, Material, Topology};

@@ -30,8 +30,8 @@ pub(crate) struct Drag {
 }
 
 impl Sandbox {
-    /// Pull a node to a place, with the stretch about it as it is when the hand takes hold, and the rest of a closed curve
-    /// more weakly: a single node of a soft curve would come alone.
+    /// Pull a node to a place, with the stretch about it as it is when the hand takes hold, and the rest of a closed
+    /// curve more weakly: a single node of a soft curve would come alone.
     pub(super) fn drag(&mut self, id: usize, node: usize, to: DVec2) -> Result<(), LiveError> {
         let held = self
             .drag

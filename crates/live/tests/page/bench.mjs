@@ -1,5 +1,5 @@
-// Measures the window: frames a second and the time from a drag to the frame that knows it, with an outline of some 2000
-// nodes in a picture of 2048 by 2048 pixels, and what memory the program holds after so many seconds of running.
+// Measures the window: frames a second and the time from a drag to the frame that knows it, with an outline of some
+// 2000 nodes in a picture of 2048 by 2048 pixels, and what memory the program holds after so many seconds of running.
 //
 // usage: node bench.mjs SNAKE SECONDS
 
