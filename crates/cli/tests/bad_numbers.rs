@@ -6,9 +6,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::{CIRCLE, Folder, changed, refused, scene};
+use crate::common::{CIRCLE, Folder, changed, refused, scene};
 
 #[test]
 fn a_number_that_is_none_is_refused_by_its_key() {

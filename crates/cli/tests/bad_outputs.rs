@@ -6,9 +6,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::{Folder, disc, scene};
+use crate::common::{Folder, disc, scene};
 
 #[test]
 fn a_file_that_cannot_be_written_is_refused_before_the_run() {

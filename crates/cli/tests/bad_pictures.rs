@@ -6,9 +6,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::{Folder, disc, float_tiff, png_head, scene};
+use crate::common::{Folder, disc, float_tiff, png_head, scene};
 
 /// A contour inside the disc's picture.
 const CIRCLE: &str = "10,30\n30,10\n50,30\n30,50\n";

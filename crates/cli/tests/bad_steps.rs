@@ -6,9 +6,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::{Folder, changed, scene};
+use crate::common::{Folder, changed, scene};
 
 /// Every scheme by name, from the program itself.
 fn schemes(folder: &Folder) -> Vec<String> {

@@ -6,9 +6,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::moving::{START, disc, frames};
+use crate::common::moving::{START, disc, frames};
 
 #[test]
 fn what_makes_no_sense_is_refused_and_nothing_is_written() {

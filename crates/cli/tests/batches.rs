@@ -6,9 +6,9 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
+use crate::common;
 
-use common::Folder;
+use crate::common::Folder;
 
 /// A bright disc in a grey picture, as PGM; without contrast nothing is found.
 fn disc(contrast: f64) -> Vec<u8> {

@@ -6,9 +6,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::{Folder, scene};
+use crate::common::{Folder, scene};
 use scene::SCENES;
 
 #[test]

@@ -6,9 +6,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::{Answer, Folder, changed, scene};
+use crate::common::{Answer, Folder, changed, scene};
 
 /// The line about sub-steps.
 fn pace(answer: &Answer) -> String {

@@ -6,9 +6,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::{Folder, disc, scene};
+use crate::common::{Folder, disc, scene};
 use io::Picture;
 use io::shapes::{self, Shape};
 use scene::SCENES;

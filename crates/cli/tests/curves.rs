@@ -6,9 +6,9 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
+use crate::common;
 
-use common::{Folder, disc, scene};
+use crate::common::{Folder, disc, scene};
 
 const POINTS: [(f64, f64); 4] = [(15.0, 30.0), (30.0, 14.0), (46.0, 30.0), (30.0, 45.0)];
 

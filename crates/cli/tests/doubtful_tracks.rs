@@ -6,10 +6,8 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::Folder;
-use common::moving::{START, disc, frames};
+use crate::common::Folder;
+use crate::common::moving::{START, disc, frames};
 
 /// A frame as floats, with a patch that holds no numbers.
 fn patched(frame: usize) -> Vec<u8> {

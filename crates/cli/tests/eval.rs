@@ -11,9 +11,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::discs::{columns, set, start_iou, words};
+use crate::common::discs::{columns, set, start_iou, words};
 
 #[test]
 fn the_table_has_the_scores_that_are_known_by_hand() {

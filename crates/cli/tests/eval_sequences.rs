@@ -10,10 +10,8 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::Folder;
-use common::discs::{columns, words};
+use crate::common::Folder;
+use crate::common::discs::{columns, words};
 
 const SIDE: usize = 80;
 

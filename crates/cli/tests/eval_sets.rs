@@ -11,10 +11,8 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::Folder;
-use common::discs::{columns, set, start_iou, words};
+use crate::common::Folder;
+use crate::common::discs::{columns, set, start_iou, words};
 use io::Picture;
 
 #[test]

@@ -7,9 +7,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 
 const PICTURE: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),

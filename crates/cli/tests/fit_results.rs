@@ -7,10 +7,8 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::fits::{CENTER, RADIUS, SIZE, START, blank, json, near, soft, text};
-use common::{Folder, disc};
+use crate::common::fits::{CENTER, RADIUS, SIZE, START, blank, json, near, soft, text};
+use crate::common::{Folder, disc};
 #[test]
 fn a_page_has_what_was_refused_first_and_then_the_least_sure() {
     let folder = Folder::new();

@@ -6,10 +6,8 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::fits::{CENTER, RADIUS, SIZE, START, blank, faded, json, near, text};
-use common::{Folder, disc};
+use crate::common::fits::{CENTER, RADIUS, SIZE, START, blank, faded, json, near, text};
+use crate::common::{Folder, disc};
 use serde_json::Value;
 
 const PICTURE: &str = concat!(

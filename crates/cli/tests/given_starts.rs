@@ -6,9 +6,9 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
+use crate::common;
 
-use common::Folder;
+use crate::common::Folder;
 
 /// Two bright discs, about (30, 30) and (90, 40), as PGM.
 fn pair() -> Vec<u8> {

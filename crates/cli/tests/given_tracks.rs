@@ -6,12 +6,10 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
 use std::collections::BTreeMap;
 
-use common::Folder;
-use common::moving::{disc, frames};
+use crate::common::Folder;
+use crate::common::moving::{disc, frames};
 
 /// Bright discs of radius 9 on a dark ground.
 fn discs(size: [u32; 2], centers: &[[f64; 2]]) -> Vec<u8> {

@@ -6,9 +6,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::{Answer, Folder, disc};
+use crate::common::{Answer, Folder, disc};
 
 /// A folder with a disc of radius 25 at (48, 48).
 fn folder() -> Folder {

@@ -6,9 +6,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 
 /// Three discs of radius 9, bright on dark, in a picture of 120 × 60.
 fn discs() -> Vec<u8> {

@@ -6,9 +6,9 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
+use crate::common;
 
-use common::Folder;
+use crate::common::Folder;
 
 const SIDE: usize = 120;
 

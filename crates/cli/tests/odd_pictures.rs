@@ -6,9 +6,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 use io::numbers::float_tiff;
 use io::shapes;
 use scene::field::Grid;

@@ -6,9 +6,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::{Folder, disc, scene};
+use crate::common::{Folder, disc, scene};
 
 fn circle(center: [f64; 2], radius: f64, count: u32) -> String {
     let points = (0..count).map(|i| {

@@ -6,9 +6,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::moving::{START, frames};
+use crate::common::moving::{START, frames};
 
 #[test]
 fn of_tracks_the_outlines_of_the_frame_of_the_start_are_taken() {

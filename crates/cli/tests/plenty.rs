@@ -6,9 +6,7 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::{Folder, refused, scene};
+use crate::common::{Folder, refused, scene};
 
 #[test]
 fn products_are_refused_with_the_key() {

@@ -6,9 +6,9 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
+use crate::common;
 
-use common::{Folder, disc, scene};
+use crate::common::{Folder, disc, scene};
 
 fn folder() -> Folder {
     let folder = Folder::new();

@@ -6,9 +6,9 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
+use crate::common;
 
-use common::{Folder, disc, float_tiff};
+use crate::common::{Folder, disc, float_tiff};
 
 const WIDTH: usize = 24;
 const HEIGHT: usize = 16;

@@ -6,10 +6,8 @@
     reason = "a test: small whole numbers"
 )]
 
-mod common;
-
-use common::moving::{START, disc, frames};
-use common::{Answer, Folder};
+use crate::common::moving::{START, disc, frames};
+use crate::common::{Answer, Folder};
 
 fn run(folder: &Folder, more: &[&str]) -> Answer {
     folder.snake(&[&["track", "in"][..], &START, more].concat())

@@ -6,9 +6,7 @@
     reason = "a test may stop, and exact means exact"
 )]
 
-mod common;
-
-use common::{csv, doubles, pgm, same_bits, table, within};
+use crate::common::{csv, doubles, pgm, same_bits, table, within};
 use field::{EdgeForce, REPORT_GAIN, REPORT_PASSES, REPORT_SCALE, Smoothing, literal, signal};
 use glam::DVec2;
 

@@ -1,9 +1,7 @@
 //! What scipy, scikit-image and `OpenCV` say about the parts they share with this crate.
 #![allow(clippy::unwrap_used, reason = "a test may stop")]
 
-mod common;
-
-use common::{outside, within};
+use crate::common::{outside, within};
 use field::{
     Across, Canny, EdgeForce, FlowRule, Smoothing, VectorFlow, edge_points, edge_stages, mask_x,
     mask_y, squared_distance, vector_flow,

@@ -63,6 +63,13 @@ pub enum Doubt {
         /// The most that an edge may have.
         most: f64,
     },
+    /// Clicks beside the one that was given lead to other outlines: which object is meant is not clear.
+    Unsteady {
+        /// How far their outlines overlap with this one, in the mean. 0 … 1.
+        overlap: f64,
+        /// The least that is needed.
+        needed: f64,
+    },
     /// Every curve that was found folds, crosses itself or has collapsed: the start is given back.
     Folded,
 }
@@ -79,6 +86,11 @@ impl fmt::Display for Doubt {
                 f,
                 "unsure: a slope and no edge; the picture is {beside:.2} as steep beside the outline as across it, which \
                  must be at most {most:.2}"
+            ),
+            Self::Unsteady { overlap, needed } => write!(
+                f,
+                "unsure: clicks beside this one lead to other outlines, which overlap with it by {overlap:.2} in the mean, \
+                 needed: {needed:.2}; a box or a curve around the object says which is meant"
             ),
             Self::Folded => f.write_str(
                 "unsure: every outline found folds, crosses itself or has collapsed; this is the start",

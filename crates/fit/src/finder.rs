@@ -19,6 +19,9 @@ const REACH: f64 = 1.5;
 /// The last stage may lose so much of the mean strength of the edge.
 const LOST: f64 = 0.05;
 
+/// Outlines from clicks side by side must overlap so much, in the mean, to be those of one object.
+const STEADY: f64 = 0.65;
+
 /// Nodes of an outline, one a pixel.
 const SPACING: f64 = 1.0;
 
@@ -62,7 +65,13 @@ pub(crate) fn found(prepared: &Prepared, start: &Contour) -> Result<Fit, FitErro
         closed: curve.closed,
     };
     let support = searched.support(&outline);
-    let doubt = doubt(&support, taken, edge.is_some(), rules);
+    let unsteady = searched.steady.filter(|overlap| *overlap < STEADY);
+    let doubt = doubt(&support, taken, edge.is_some(), rules).or_else(|| {
+        unsteady.map(|overlap| Doubt::Unsteady {
+            overlap,
+            needed: STEADY,
+        })
+    });
     let strengths = searched.strengths(&outline);
     let blur = edge.map_or(1.0, |edge| edge.blur);
     let node = |i: usize| {

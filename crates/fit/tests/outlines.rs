@@ -1,9 +1,7 @@
 //! Outlines that are known exactly, and changes of an image that must not change them.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
 
-mod common;
-
-use common::{apart, disc, drawn, found, whole};
+use crate::common::{apart, disc, drawn, found, whole};
 use std::ops::ControlFlow;
 
 use elastic::{Material, Topology};

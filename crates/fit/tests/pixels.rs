@@ -6,9 +6,7 @@
     reason = "a test: levels from 0 to 255"
 )]
 
-mod common;
-
-use common::{apart, disc, whole};
+use crate::common::{apart, disc, whole};
 use fit::{Contour, Image, Options, fit};
 use glam::DVec2;
 use ndarray::Array2;

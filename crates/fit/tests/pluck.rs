@@ -1,9 +1,7 @@
 //! Outlines that are plucked: firm where the image has an edge, loose where it has none.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
 
-mod common;
-
-use common::{BRIGHT, DARK, disc, drawn};
+use crate::common::{BRIGHT, DARK, disc, drawn};
 use fit::{Contour, Image, OptionKey, Options, Pluck, Plucked, Prepared};
 use glam::DVec2;
 

@@ -1,12 +1,10 @@
 //! What is refused, by which key; and what is no error but an outcome.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
 
-mod common;
-
 use std::any::Any;
 use std::sync::Arc;
 
-use common::{disc, whole};
+use crate::common::{disc, whole};
 use fit::force::{Edge, ForceKey, Gvf, ImageForceKind, Regions, Sight};
 use fit::{Contour, FitForce, Image, MakeForce, Nodes, OptionKey, Options, Step, fit};
 use glam::DVec2;

@@ -1,7 +1,7 @@
 //! The method of searches as a library user sees it: outcomes, starts of every kind, what is told.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
 
-mod common;
+use crate::common;
 
 use fit::{Choices, Contour, Doubt, Image, Nodes, OptionKey, Options, Prepared, fit};
 use glam::DVec2;

@@ -1,9 +1,7 @@
 //! One fit by several ways: at once, step by step, on threads, by many.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
 
-mod common;
-
-use common::{disc, whole};
+use crate::common::{disc, whole};
 use fit::{Contour, Edit, Fit, Image, Job, OptionKey, Options, Prepared, fit_many};
 use glam::DVec2;
 

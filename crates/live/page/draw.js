@@ -11,6 +11,9 @@ const WIDEST = 8;
 /** Moments of a trail. */
 const TRAIL = 240;
 
+/** Steps from weak to strong that are drawn in colors of their own. */
+const LEVELS = 16;
+
 /**
  * Draw everything.
  * @param {App} app
@@ -395,12 +398,24 @@ function outline(to, app, one, bad) {
   if (show.strength && one.strengths && one.strengths.length === n) {
     to.lineWidth = chosen ? 3.2 : 2.2;
     const edges = one.closed ? n : n - 1;
-    for (let i = 0; i < edges; i++) {
-      const j = (i + 1) % n;
-      to.strokeStyle = ofStrength(one.strengths[i]);
+    // a line for each of few colors, not one for each edge: thousands of nodes are drawn in every frame
+    const levels = Array.from(one.strengths, (/** @type {number} */ share) => Math.round(LEVELS * Math.min(Math.max(share, 0), 1)));
+    for (let level = 0; level <= LEVELS; level++) {
       to.beginPath();
-      to.moveTo(...camera.screen(x[2 * i], x[2 * i + 1]));
-      to.lineTo(...camera.screen(x[2 * j], x[2 * j + 1]));
+      let any = false;
+      let on = false;
+      for (let i = 0; i < edges; i++) {
+        if (levels[i] !== level) {
+          on = false;
+          continue;
+        }
+        const j = (i + 1) % n;
+        if (!on) to.moveTo(...camera.screen(x[2 * i], x[2 * i + 1]));
+        to.lineTo(...camera.screen(x[2 * j], x[2 * j + 1]));
+        any = on = true;
+      }
+      if (!any) continue;
+      to.strokeStyle = ofStrength(level / LEVELS);
       to.stroke();
     }
   } else {
@@ -465,16 +480,23 @@ function band(to, app, one) {
   };
   to.fillStyle = "#f0e442";
   to.globalAlpha = 0.55;
-  const edges = one.closed ? n : n - 1;
-  for (let i = 0; i < edges; i++) {
-    const j = (i + 1) % n;
-    if (one.errors[i] < 0 || one.errors[j] < 0) continue;
-    to.beginPath();
-    to.moveTo(...quad(i, 1));
-    to.lineTo(...quad(j, 1));
-    to.lineTo(...quad(j, -1));
-    to.lineTo(...quad(i, -1));
-    to.fill();
+  const last = one.closed ? n : n - 1;
+  for (let first = 0; first < last; ) {
+    if (one.errors[first] < 0) {
+      first++;
+      continue;
+    }
+    // a stretch of nodes with an error is one area
+    let end = first;
+    while (end < last && one.errors[(end + 1) % n] >= 0) end++;
+    if (end > first) {
+      to.beginPath();
+      to.moveTo(...quad(first, 1));
+      for (let i = first + 1; i <= end; i++) to.lineTo(...quad(i % n, 1));
+      for (let i = end; i >= first; i--) to.lineTo(...quad(i % n, -1));
+      to.fill();
+    }
+    first = end + 1;
   }
   to.globalAlpha = 1;
 }

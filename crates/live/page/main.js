@@ -121,12 +121,30 @@ export class App {
     const last = this.next;
     this.next = null;
     this.saved = false;
+    const done = this.works();
     try {
       if (last) await this.engine.call({ do: last });
       await this.engine.call({ do: action }, rest);
     } catch (error) {
       this.say(/** @type {Error} */ (error).message);
+    } finally {
+      done();
     }
+  }
+
+  /** Something is being done: the user is told where it takes long. What is given back ends it. */
+  works() {
+    const words = "Working …";
+    const timer = setTimeout(() => {
+      document.body.classList.add("works");
+      element("status").textContent = words;
+    }, 400);
+    return () => {
+      clearTimeout(timer);
+      document.body.classList.remove("works");
+      const status = element("status");
+      if (status.textContent === words) status.textContent = "";
+    };
   }
 
   /**
@@ -136,11 +154,14 @@ export class App {
    * @param {boolean} [more] whether it is one more frame
    */
   async open(action, rest, more = false) {
+    const done = this.works();
     try {
       await this.engine.call({ do: action }, rest);
     } catch (error) {
       this.say(/** @type {Error} */ (error).message);
       return;
+    } finally {
+      done();
     }
     if (more) return;
     this.saved = true;
@@ -173,7 +194,10 @@ export class App {
   }
 
   track() {
-    if (this.kind === "picture") this.act({ kind: "frames", do: this.picture.following ? "stop" : "track" });
+    if (this.kind === "picture") {
+      const births = /** @type {HTMLInputElement} */ (element("births")).checked;
+      this.act(this.picture.following ? { kind: "frames", do: "stop" } : { kind: "frames", do: "track", births });
+    }
   }
 
   /** @param {number} by */

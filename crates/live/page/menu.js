@@ -85,7 +85,17 @@ const OUTLINES = /\.(csv|tsv|txt|geojson|roi|zip|svg|xml|json)$/i;
  * @param {File[]} files
  */
 export async function open(app, files) {
-  const sorted = [...files].sort((a, b) => a.name.localeCompare(b.name, undefined, { numeric: true }));
+  let sorted = [...files].sort((a, b) => a.name.localeCompare(b.name, undefined, { numeric: true }));
+  const scene = sorted.find((file) => /\.toml$/i.test(file.name));
+  if (scene) {
+    // a scene takes the files that its text names
+    const text = await scene.text();
+    const named = sorted.filter((file) => file !== scene && text.includes(file.name));
+    sorted = sorted.filter((file) => file !== scene && !named.includes(file));
+    const rest = new Uint8Array(await new Blob(named).arrayBuffer());
+    const beside = named.map((file) => [file.name, file.size]);
+    await app.open({ kind: "scene", name: scene.name.replace(/\.toml$/i, ""), text, files: beside }, rest);
+  }
   let frame = false;
   for (const file of sorted) {
     const bytes = new Uint8Array(await file.arrayBuffer());
@@ -93,8 +103,6 @@ export async function open(app, files) {
       if (/\.snakes\.json$/i.test(file.name)) {
         await app.engine.call({ session: true }, bytes);
         await app.reload();
-      } else if (/\.toml$/i.test(file.name)) {
-        await app.open({ kind: "scene", name: file.name.replace(/\.toml$/i, ""), text: new TextDecoder().decode(bytes) });
       } else if (OUTLINES.test(file.name)) {
         await app.act({ kind: "outline", do: "file", name: file.name, search: true }, true, bytes);
       } else {

@@ -15,8 +15,10 @@ export class PicturePanel {
     box.replaceChildren();
     this.rows = make("tbody");
     const head = make("tr", {}, ...["", "Name", "Class", "Area / px²", "± px", ""].map((words) => make("th", {}, words)));
-    this.none = make("p", { className: "words" }, "No outline yet. Choose Click and click inside an object, or draw around one.");
-    box.append(make("h2", {}, "Outlines"), this.none, make("table", {}, make("thead", {}, head), this.rows));
+    this.none = make("p", { className: "words" }, "No outline yet. Choose Click and click inside an object, or draw around one; Find all looks for every object.");
+    const all = make("button", { textContent: "Find all", title: "Find every object of the picture; outlines that are there stay" });
+    all.onclick = () => app.act({ kind: "outline", do: "all" });
+    box.append(make("h2", {}, "Outlines"), this.none, make("div", { className: "row" }, all), make("table", {}, make("thead", {}, head), this.rows));
     this.words = make("p", { className: "words" });
     this.more = make("pre", { className: "words", style: "white-space: pre-wrap; font-size: 12px" });
     const known = make("details", { open: true }, make("summary", {}, "The chosen outline: where it ended, and why"), this.words,

@@ -1,5 +1,6 @@
 //! The engine: it takes messages, runs what is open by a clock, and hands out frames.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -40,7 +41,7 @@ pub(crate) struct Show {
 /// use live::{Action, Engine};
 ///
 /// let mut engine = Engine::new();
-/// engine.perform(&Action::Scene { name: "soft-ball".into(), text: None }, &[])?;
+/// engine.perform(&Action::shipped("soft-ball"), &[])?;
 /// engine.perform(&Action::Play, &[])?;
 /// while engine.steps() < 100 {
 ///     engine.tick(16.0, 1.0);
@@ -178,7 +179,7 @@ impl Engine {
                 self.begin_past();
                 self.playing = false;
             }
-            Action::Scene { name, text } => {
+            Action::Scene { name, text, files } => {
                 let text = match text {
                     Some(text) if text.len() > MOST_TEXT => {
                         return Err(LiveError::new(format!(
@@ -186,11 +187,12 @@ impl Engine {
                             text.len()
                         )));
                     }
-                    // files that it names are looked for where the program runs; a page by itself has none
+                    // files that did not come with it are looked for where the program runs; a page by itself has none
                     Some(text) => SceneText::parse(name, text, Path::new("")),
                     None => SceneText::named(name),
                 };
                 let text = text.map_err(LiveError::of)?;
+                let text = text.with_files(separate(files, rest)?);
                 self.open(Stage::Scene(Box::new(Sandbox::open(&text)?)));
             }
             Action::Picture { name, frame } => match (&mut self.stage, frame) {
@@ -210,7 +212,7 @@ impl Engine {
             }
             Action::Frames(change) => {
                 self.pictures_mut()?.frames(change)?;
-                self.playing = *change == Frames::Track;
+                self.playing = matches!(change, Frames::Track { .. });
             }
         }
         Ok(())
@@ -342,5 +344,30 @@ fn counted(steps: u32) -> Result<u32, LiveError> {
     }
     Err(LiveError::new(format!(
         "must be from 1 to {MOST_STEPS} steps, got {steps}"
+    )))
+}
+
+/// Files that came one behind the other, by their names.
+fn separate(
+    files: &[(String, usize)],
+    mut rest: &[u8],
+) -> Result<BTreeMap<String, Vec<u8>>, LiveError> {
+    let mut out = BTreeMap::new();
+    for (name, length) in files {
+        let Some((one, more)) = rest.split_at_checked(*length) else {
+            let got = rest.len();
+            return Err(LiveError::new(format!(
+                "{name} must be {length} bytes long, got {got}"
+            )));
+        };
+        out.insert(name.clone(), one.to_vec());
+        rest = more;
+    }
+    if rest.is_empty() {
+        return Ok(out);
+    }
+    let got = rest.len();
+    Err(LiveError::new(format!(
+        "every file of a scene must have a name, got {got} bytes without one"
     )))
 }

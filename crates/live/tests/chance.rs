@@ -198,7 +198,7 @@ proptest! {
 
     #[test]
     fn a_scene_bears_any_messages(actions in prop::collection::vec(prop_oneof![3 => body(), 2 => run()], 1..24)) {
-        let open = Action::Scene { name: "rings".to_owned(), text: Some(SCENE.to_owned()) };
+        let open = Action::Scene { name: "rings".to_owned(), text: Some(SCENE.to_owned()), files: Vec::new() };
         try_all(&open, &[], &actions)?;
     }
 

@@ -11,10 +11,7 @@ use live::{Action, Body, Drawn, Engine, Outline, Packet, Session};
 use serde_json::{Value, json};
 
 fn scene(name: &str) -> Action {
-    Action::Scene {
-        name: name.to_owned(),
-        text: None,
-    }
+    Action::shipped(name)
 }
 
 /// An engine with that open.

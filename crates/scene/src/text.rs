@@ -1,6 +1,6 @@
 //! The text of a scene as a value: read, changed key by key, built and written.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -107,6 +107,21 @@ impl SceneText {
     pub fn with_files(mut self, files: BTreeMap<String, Vec<u8>>) -> Self {
         self.held = Arc::new(files);
         self
+    }
+
+    /// Names of the files that the text reads, as it has them: pictures, masks, curves, maps.
+    ///
+    /// ```
+    /// let mut text = scene::SceneText::named("soft-ball")?;
+    /// assert!(text.files().is_empty());
+    /// text.set("snake.start", "{ file = \"ring.csv\" }")?;
+    /// assert_eq!(text.files(), ["ring.csv"]);
+    /// # Ok::<(), scene::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn files(&self) -> Vec<String> {
+        let names: BTreeSet<&String> = meaning::names(&self.written).into_iter().collect();
+        names.into_iter().cloned().collect()
     }
 
     /// The text as it was read, with its comments and without any change.

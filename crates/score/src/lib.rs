@@ -66,6 +66,7 @@ mod measures;
 mod normal;
 pub mod sequences;
 pub mod synthetic;
+pub mod table;
 pub mod tracking;
 
 pub use agreement::Agreement;

@@ -21,8 +21,21 @@ const SIZE: f64 = 0.4;
 /// Points of the circles.
 const POINTS: u32 = 64;
 
+/// Places beside a click whose outlines are compared with its own, and how far they are from it, in radii of a disk of
+/// its area.
+const BESIDE: u32 = 4;
+const APART: f64 = 0.3;
+
+/// From those places sizes are tried from this share of the outline's to its inverse.
+const SMALLER: f64 = 0.25;
+
+/// Points across a box about two outlines that say how much they overlap.
+const ACROSS: u32 = 48;
+
 /// Look for the outline around a place: circles of growing size are tried, and the outline that is closed best for
 /// its size is taken, the first of equals. None for a place outside the picture.
+///
+/// The same is done from places beside it within that outline: [`Searched::steady`] says how far they agree.
 #[must_use]
 pub fn find_around(pixels: &dyn Pixels, place: DVec2, rules: &Rules) -> Option<Searched> {
     let (width, height) = pixels.size();
@@ -35,9 +48,48 @@ pub fn find_around(pixels: &dyn Pixels, place: DVec2, rules: &Rules) -> Option<S
         pure: 1.0,
         ..*rules
     };
+    let largest = LARGEST * size.min_element().max(2.0 * SMALLEST);
+    let mut best = best_of(pixels, place, rules, (0.0, largest))?;
+    let outline = Polygon {
+        points: best.taken().points.clone(),
+        closed: true,
+    };
+    let radius = (outline.area() / std::f64::consts::PI).sqrt();
+    let own = outline.points;
+    let sizes = (SMALLER * radius, largest.min(radius / SMALLER));
+    let turn =
+        |k| DVec2::from_angle(std::f64::consts::TAU * (f64::from(k) + 0.5) / f64::from(BESIDE));
+    let places = (0..BESIDE).map(|k| place + APART * radius * turn(k));
+    let is_in = |p: &DVec2| {
+        ::outline::winding(&own, *p) != Some(0)
+            && (*p + 0.5).cmpge(DVec2::ZERO).all()
+            && (*p + 0.5).cmple(size).all()
+    };
+    let overlaps: Vec<f64> = places
+        .filter(is_in)
+        .filter_map(|p| best_of(pixels, p, rules, sizes))
+        .map(|other| overlap(&own, &other.taken().points))
+        .collect();
+    if !overlaps.is_empty() {
+        best.steady = Some(overlaps.iter().sum::<f64>() / overlaps.len() as f64);
+    }
+    Some(best)
+}
+
+/// The best outline about a place from circles of radii from one to another.
+fn best_of(
+    pixels: &dyn Pixels,
+    place: DVec2,
+    rules: &Rules,
+    (least, most): (f64, f64),
+) -> Option<Searched> {
     let mut best: Option<Searched> = None;
     let mut radius = SMALLEST;
-    while radius <= LARGEST * size.min_element().max(2.0 * SMALLEST) {
+    while radius <= most {
+        if radius < least {
+            radius *= LARGER;
+            continue;
+        }
         let turn = |i| DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / f64::from(POINTS));
         let points = (0..POINTS).map(|i| place + radius * turn(i)).collect();
         let found = find(
@@ -61,6 +113,23 @@ pub fn find_around(pixels: &dyn Pixels, place: DVec2, rules: &Rules) -> Option<S
         radius *= LARGER;
     }
     best
+}
+
+/// How much two outlines have in common of what both enclose, by points of a grid.
+fn overlap(a: &[DVec2], b: &[DVec2]) -> f64 {
+    let all = || a.iter().chain(b).copied();
+    let low = all().fold(DVec2::INFINITY, DVec2::min);
+    let cell = (all().fold(DVec2::NEG_INFINITY, DVec2::max) - low) / f64::from(ACROSS);
+    let (mut both, mut either) = (0_u32, 0_u32);
+    for row in 0..ACROSS {
+        for column in 0..ACROSS {
+            let p = low + cell * (DVec2::new(f64::from(column), f64::from(row)) + 0.5);
+            let [a, b] = [a, b].map(|curve| outline::winding(curve, p) != Some(0));
+            both += u32::from(a && b);
+            either += u32::from(a || b);
+        }
+    }
+    f64::from(both) / f64::from(either.max(1))
 }
 
 /// What speaks for an outline among others of other sizes: that of the start counts that it was found from.

@@ -58,6 +58,8 @@ pub struct Searched {
     pub pixel: f64,
     /// What was measured about the start.
     pub seen: Seen,
+    /// Of a start by one click: how far outlines from clicks beside it overlap with this one, in the mean, 0 … 1.
+    pub steady: Option<f64>,
     view: Arc<View>,
 }
 
@@ -70,6 +72,7 @@ impl Searched {
             around: false,
             pixel,
             seen,
+            steady: None,
             view: Arc::new(view),
         }
     }

@@ -5,7 +5,7 @@
     reason = "a test: a snake that cannot be built should stop it, and nothing is nothing"
 )]
 
-mod common;
+use crate::common;
 
 use elastic::{Material, Topology};
 use field::{ForceField, Grid};

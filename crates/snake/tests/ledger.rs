@@ -4,7 +4,7 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
-mod strays;
+use crate::strays;
 
 use elastic::{Material, Topology};
 use field::{ForceField, Grid};

@@ -4,9 +4,9 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
-mod strays;
+use crate::strays;
 
-mod common;
+use crate::common;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

@@ -4,20 +4,18 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
-mod spin;
-
-mod common;
+use crate::common;
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use crate::spin::{N, body, farthest, go, spinning};
 use elastic::{Material, Motion, Topology};
 use field::{EdgeForce, ForceField, Grid, Smoothing, edge_force};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use snake::{Body, Frame, Ledger, Sampling, Snake, Term, Turn, World};
-use spin::{N, body, farthest, go, spinning};
 use {banded as _, outline as _, proptest as _, thiserror as _};
 
 fn turned(state: &State, by: DVec2) -> State {

@@ -4,7 +4,7 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
-mod common;
+use crate::common;
 
 use std::ops::ControlFlow::Continue;
 

@@ -4,15 +4,13 @@
     reason = "a test: a snake that cannot be built should stop it"
 )]
 
-mod spin;
-
 use std::f64::consts::TAU;
 
+use crate::spin::{N, body, farthest, go, spinning};
 use elastic::{BestFit, Material, Profile, Topology};
 use glam::DVec2;
 use integrator::{Scheme, Start, State};
 use snake::{Body, Frame, Snake, SnakeError, Term, Turning, World};
-use spin::{N, body, farthest, go, spinning};
 use {banded as _, field as _, outline as _, proptest as _, thiserror as _};
 
 #[test]

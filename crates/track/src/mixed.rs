@@ -6,13 +6,9 @@ use glam::DVec2;
 
 use crate::body::Body;
 use crate::contact;
-use crate::evidence::{Evidence, Look};
-use crate::follow::MARGIN;
 use crate::ring;
 use crate::step::Frame;
-use crate::tables::{Strips, depth};
 use crate::tracker::{Object, Tracker};
-use crate::window::Window;
 use crate::{Event, Happening};
 
 /// Of two that share so much of the smaller one, it is not known which is which until they share less than that.
@@ -78,23 +74,5 @@ fn alike(now: Frame<'_>, one: &Object, other: &Object) -> f64 {
 fn fit(now: Frame<'_>, body: &Body, outline: &[DVec2]) -> f64 {
     let curve = body.to_cells(outline);
     let (curve, _) = ring::evenly(&curve, body.curve.len());
-    let radius = ring::radius(&curve);
-    let (low, high) = ring::bounds(&curve);
-    let margin = DVec2::splat(depth(radius) + MARGIN);
-    let window = Window::of(
-        now.pixels,
-        body.block,
-        body.light,
-        low - margin,
-        high + margin,
-    );
-    let ratios = body.remembered().ratios();
-    let look = Look {
-        window: &window,
-        palette: &body.palette,
-        ratios: &ratios,
-        profiles: None,
-        edges: None,
-    };
-    Evidence::of(look, &Strips::of(&curve, radius)).mean
+    body.evidence_in(now.pixels, &curve, ring::radius(&curve), None).mean
 }

@@ -1,10 +1,12 @@
 //! Objects that look like the one that is followed, and are not it.
 
+use field::Pixels;
 use glam::DVec2;
 
 use crate::body::{Body, Seen};
 use crate::evidence::{Evidence, Look};
 use crate::follow::MARGIN;
+use crate::profile::Profiles;
 use crate::ring;
 use crate::tables::{Strips, depth};
 use crate::window::Window;
@@ -24,24 +26,30 @@ impl Body {
         if ring::middle(&found.curve).distance(*middle) < APART * radius {
             return false;
         }
-        let (low, high) = ring::bounds(&found.curve);
+        let before = self.evidence_in(image.pixels(), &found.curve, radius, Some(&self.profiles));
+        before.mean > TWIN * found.evidence.mean
+    }
+
+    /// What a picture says for a curve anywhere in it, in cells, by what is remembered of this body; `radius` of the
+    /// object in cells.
+    pub(crate) fn evidence_in(
+        &self,
+        pixels: &dyn Pixels,
+        curve: &[DVec2],
+        radius: f64,
+        profiles: Option<&Profiles>,
+    ) -> Evidence {
+        let (low, high) = ring::bounds(curve);
         let margin = DVec2::splat(depth(radius) + MARGIN);
-        let window = Window::of(
-            image.pixels(),
-            self.block,
-            self.light,
-            low - margin,
-            high + margin,
-        );
+        let window = Window::of(pixels, self.block, self.light, low - margin, high + margin);
         let ratios = self.remembered().ratios();
         let look = Look {
             window: &window,
             palette: &self.palette,
             ratios: &ratios,
-            profiles: Some(&self.profiles),
+            profiles,
             edges: None,
         };
-        let before = Evidence::of(look, &Strips::of(&found.curve, radius));
-        before.mean > TWIN * found.evidence.mean
+        Evidence::of(look, &Strips::of(curve, radius))
     }
 }

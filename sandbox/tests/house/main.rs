@@ -236,6 +236,32 @@ fn sources() -> Vec<(PathBuf, String)> {
 }
 
 #[test]
+fn every_test_file_is_in_a_program() {
+    for (name, folder) in packages() {
+        let table = manifest(&folder);
+        let by_hand = table["package"].get("autotests").is_some();
+        let Ok(entries) = std::fs::read_dir(folder.join("tests")) else {
+            continue;
+        };
+        if !by_hand {
+            continue;
+        }
+        let all = std::fs::read_to_string(folder.join("tests/all.rs")).unwrap();
+        let own: Vec<&str> = table["test"].as_array().map_or(Vec::new(), |list| {
+            list.iter().filter_map(|one| one["name"].as_str()).collect()
+        });
+        for entry in entries {
+            let path = entry.unwrap().path();
+            let stem = path.file_stem().unwrap().to_str().unwrap();
+            if path.extension().is_some_and(|ending| ending == "rs") {
+                let known = own.contains(&stem) || all.contains(&format!("mod {stem};\n"));
+                assert!(known, "tests/all.rs of {name} must name {stem}");
+            }
+        }
+    }
+}
+
+#[test]
 fn every_experiment_has_its_expected_numbers() {
     for experiment in sandbox::EXPERIMENTS {
         let file = sandbox::expected_folder().join(format!("{}.csv", experiment.id));

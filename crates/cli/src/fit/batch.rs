@@ -13,7 +13,7 @@ use serde_json::json;
 use super::flags::Flags;
 use super::former::{Former, unsure};
 use super::inputs::{self, Input};
-use super::measures::{HEADINGS, called, rows};
+use super::measures::{called, headings, rows};
 use super::one::{all, beside, picture};
 use super::options::options;
 use super::results::{Wanted, of_folder, write};
@@ -150,7 +150,7 @@ pub(super) fn many(flags: &Flags, images: &[PathBuf], words: Words) -> Answer {
     if let Some(path) = &flags.measure {
         let own: Vec<String> = jobs.iter().map(|job| called(&job.input.name)).collect();
         let others = former.others(own.iter().map(String::as_str));
-        let table = format!("{HEADINGS}\n{others}{}", tally.rows);
+        let table = format!("{}\n{others}{}", headings(), tally.rows);
         if io::is_standard(path) {
             put_bytes(table.as_bytes())?;
         } else {

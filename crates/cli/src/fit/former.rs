@@ -7,7 +7,7 @@ use io::shapes::{self, Format, Reading, Value};
 use scene::SceneError;
 
 use super::flags::Flags;
-use super::measures::{HEADINGS, OUTCOME, UNSURE};
+use super::measures::{OUTCOME, UNSURE, headings};
 use super::results::Wanted;
 use crate::commands::key;
 
@@ -52,13 +52,14 @@ impl Former {
 
     fn read(text: &str) -> Result<Self, String> {
         let mut records = records(text);
+        let headings = headings();
         let first = records.next().map(|(_, fields)| fields.join(","));
-        if first.as_deref() != Some(HEADINGS) {
+        if first.as_deref() != Some(&*headings) {
             return Err("has other columns than this version writes".to_owned());
         }
         let mut pictures: BTreeMap<String, Rows> = BTreeMap::new();
         for (text, mut fields) in records {
-            if fields.len() != HEADINGS.split(',').count() {
+            if fields.len() != headings.split(',').count() {
                 return Err(format!("has a row of {} fields", fields.len()));
             }
             let unsure = usize::from(fields[OUTCOME] == UNSURE);
@@ -163,13 +164,14 @@ mod tests {
 
     #[test]
     fn rows_are_kept_as_they_stand_with_whatever_names_pictures_have() {
+        let headings = headings();
         let row = |start: &str, outcome: &str| {
-            let rest = ",1".repeat(HEADINGS.split(',').count() - 4);
+            let rest = ",1".repeat(headings.split(',').count() - 4);
             format!("{start},1,,{outcome}{rest}\n")
         };
         let odd = row("\"a,\n\"\"b\"\".png\"", "unsure");
         let text = [
-            format!("{HEADINGS}\n"),
+            format!("{headings}\n"),
             row("z.png", "found"),
             odd.clone(),
             row("z.png", "unsure"),
@@ -182,6 +184,6 @@ mod tests {
         assert_eq!(former.others(["a,\n\"b\".png"].into_iter()), both);
         assert!(former.rows("b.png").is_none());
         assert!(Former::read("picture,area\n").is_err() && Former::read("").is_err());
-        assert!(Former::read(&format!("{HEADINGS}\na.png,1\n")).is_err());
+        assert!(Former::read(&format!("{headings}\na.png,1\n")).is_err());
     }
 }

@@ -29,8 +29,7 @@ pub(crate) use self::flags::Origin;
 use self::flags::Pages;
 pub(crate) use self::flags::{EXAMPLES, Flags};
 pub(crate) use self::inputs::matched;
-use self::measures::{HEADINGS, rows};
-pub(crate) use self::measures::{plain, quoted};
+use self::measures::{headings, rows};
 use self::one::{Found, all, beside, picture};
 pub(crate) use self::options::rules as search_rules;
 use self::results::write;
@@ -43,6 +42,7 @@ use crate::args::Words;
 use crate::commands::{Answer, code, key, two_inputs};
 use crate::output::{goes_nowhere, put_bytes};
 use crate::stop::{STOPPED, Stop};
+pub(crate) use score::table::{plain, quoted};
 
 /// What a fit is called in what is said.
 const TITLE: &str = "a contour fitted to a picture";
@@ -130,7 +130,7 @@ fn single(flags: &Flags, image: &Path, words: Words) -> Answer {
         }
     }
     if let Some(path) = &flags.measure {
-        let table = format!("{HEADINGS}\n{}", rows(&picture, image, &found));
+        let table = format!("{}\n{}", headings(), rows(&picture, image, &found));
         if is_standard(path) {
             put_bytes(table.as_bytes())?;
         } else {

@@ -14,6 +14,10 @@ use tokio::sync::{mpsc, watch};
 /// Time between two frames.
 const FRAME: Duration = Duration::from_micros(16_667);
 
+/// Time from a frame to the next where a window has said something: what a hand does is shown without waiting for the
+/// clock.
+const SOON: Duration = Duration::from_millis(8);
+
 /// Windows that are remembered, and answers of each.
 const MOST_WINDOWS: usize = 32;
 const MOST_ANSWERS: usize = 128;
@@ -145,6 +149,7 @@ fn run(mut engine: Engine, queue: &Receiver<Job>, frames: &watch::Sender<Arc<Vec
             }
             Ok(Job::Message(message)) => {
                 hear(&mut engine, &mut windows, message);
+                due = due.min(before + SOON);
                 continue;
             }
             Err(RecvTimeoutError::Timeout) => {}

@@ -10,9 +10,9 @@ use std::process::ExitCode;
 
 use clap::Args as ClapArgs;
 use io::PictureReading;
-use io::frames::Frames;
+use io::frames::{Frame, Frames};
 use live::{Action, Engine, LiveError, Session};
-use scene::SceneError;
+use scene::{SceneError, SceneText};
 
 use crate::args::Words;
 use crate::commands::{Answer, key};
@@ -26,7 +26,7 @@ pub(crate) const EXAMPLES: &str = "Examples:
   snake live                      scenes of the report, from a menu
   snake live soft-ball            one of them
   snake live photo.jpg            find, mend and save outlines in a picture
-  snake live frames/*.png         follow outlines through a sequence
+  snake live frames/*.png         follow outlines through a sequence: files, a TIFF of pages, a video
   snake live session.snakes.json  go on from a session that was saved
 
 Keys: Space runs, ? shows all others. Ctrl-C here ends it; what was not saved is written beside the input.";
@@ -39,8 +39,8 @@ const MOST_FILES: usize = 20_000;
 
 #[derive(Debug, Clone, ClapArgs)]
 pub(crate) struct Flags {
-    /// A picture, several of them or a folder as the frames of a sequence, a shipped scene's name, a scene file, or a
-    /// session; nothing for a menu.
+    /// A picture; files, a folder, a TIFF of several pages or a video (by ffmpeg) as a sequence; a shipped scene's
+    /// name, a scene file, or a session; nothing for a menu.
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Do not open the browser; the address is printed all the same.
@@ -88,10 +88,7 @@ fn opened(files: &[PathBuf]) -> Result<(Engine, PathBuf), SceneError> {
         let name = path.to_string_lossy();
         let shipped = scene::SCENES.iter().any(|(known, _)| *known == name);
         if shipped && !path.exists() {
-            let scene = Action::Scene {
-                name: name.into_owned(),
-                text: None,
-            };
+            let scene = Action::shipped(&name);
             engine.perform(&scene, &[]).map_err(|e| refused(path, e))?;
             return Ok((engine, stem));
         }
@@ -100,12 +97,16 @@ fn opened(files: &[PathBuf]) -> Result<(Engine, PathBuf), SceneError> {
             ending.eq_ignore_ascii_case(wanted)
         };
         if ending("toml") {
-            let text = scene::SceneText::load(path)?;
+            let text = SceneText::load(path)?;
+            let (files, bytes) = beside(path, &text)?;
             let scene = Action::Scene {
                 name: stem.to_string_lossy().into_owned(),
                 text: Some(text.source().to_owned()),
+                files,
             };
-            engine.perform(&scene, &[]).map_err(|e| refused(path, e))?;
+            engine
+                .perform(&scene, &bytes)
+                .map_err(|e| refused(path, e))?;
             return Ok((engine, stem));
         }
         if ending("json") {
@@ -115,8 +116,15 @@ fn opened(files: &[PathBuf]) -> Result<(Engine, PathBuf), SceneError> {
         }
         if !path.exists() && path.extension().is_none() {
             // with the nearest name
-            scene::SceneText::named(&name)?;
+            SceneText::named(&name)?;
         }
+    }
+    if let [path] = &frames[..]
+        && io::frames::is_video(path)
+    {
+        film(&mut engine, path)?;
+        engine.saved();
+        return Ok((engine, stem));
     }
     for (index, path) in frames.iter().enumerate() {
         let bytes = io::read_file(path, "a picture", MOST_BYTES)?;
@@ -131,6 +139,50 @@ fn opened(files: &[PathBuf]) -> Result<(Engine, PathBuf), SceneError> {
     }
     engine.saved();
     Ok((engine, stem))
+}
+
+/// The frames of a video, each as a picture of its own.
+fn film(engine: &mut Engine, path: &Path) -> Result<(), SceneError> {
+    for numbered in Frames::open(&[path.to_owned()], &PictureReading::default())? {
+        let Frame::Picture(picture) = numbered.frame else {
+            continue;
+        };
+        let index = numbered.index;
+        if index >= MOST_FILES {
+            return Err(key(
+                "FILE",
+                format!(
+                    "must be at most {MOST_FILES} frames; {} has more",
+                    path.display()
+                ),
+            ));
+        }
+        let bytes = io::paint::png(picture.display())?;
+        let action = Action::Picture {
+            name: format!("{}.png", numbered.name),
+            frame: index > 0,
+        };
+        engine
+            .perform(&action, &bytes)
+            .map_err(|error| key(&path.display().to_string(), error))?;
+    }
+    Ok(())
+}
+
+/// Names and lengths of files, and their bytes.
+type Beside = (Vec<(String, usize)>, Vec<u8>);
+
+/// The files that a scene names: names and lengths, and their bytes one behind the other, so that a session of it
+/// replays anywhere.
+fn beside(path: &Path, text: &SceneText) -> Result<Beside, SceneError> {
+    let folder = path.parent().unwrap_or_else(|| Path::new("."));
+    let (mut files, mut all) = (Vec::new(), Vec::new());
+    for name in text.files() {
+        let bytes = io::read_file(&folder.join(&name), "a file that a scene names", MOST_BYTES)?;
+        files.push((name, bytes.len()));
+        all.extend(bytes);
+    }
+    Ok((files, all))
 }
 
 /// A session from a file.

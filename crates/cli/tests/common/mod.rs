@@ -1,6 +1,11 @@
 //! A fresh folder with the built program in it, and what may be asked of an answer.
 #![allow(dead_code, reason = "each test file uses its part")]
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a test: levels from 0 to 255"
+)]
 
 pub(crate) mod discs;
 pub(crate) mod fits;

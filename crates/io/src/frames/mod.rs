@@ -24,7 +24,7 @@ mod video;
 use std::path::{Path, PathBuf};
 
 use pages::Pages;
-use video::{Stream, is_video};
+use video::Stream;
 
 use crate::picture::PictureReading;
 use crate::{IoError, Picture};
@@ -32,6 +32,7 @@ use crate::{IoError, Picture};
 pub use listing::{ENDINGS, is_picture};
 pub use names::Gap;
 pub use order::natural_order;
+pub use video::is_video;
 
 /// A frame, or why there is none.
 #[derive(Debug, Clone)]

@@ -14,8 +14,9 @@ const ENDINGS: [&str; 20] = [
     "mpg", "mxf", "ogv", "ts", "webm", "wmv", "y4m",
 ];
 
-/// Whether a file is a video by its name.
-pub(super) fn is_video(path: &Path) -> bool {
+/// Whether a file is a video by the ending of its name.
+#[must_use]
+pub fn is_video(path: &Path) -> bool {
     let ending = path
         .extension()
         .map(|ending| ending.to_string_lossy().to_lowercase());

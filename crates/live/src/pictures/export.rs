@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use io::paint;
 use io::shapes::{self, Context, Format, NodeColumn, Shape, Value};
-use scene::elastic;
+use score::table::{SHAPE_HEADINGS, UNIT_HEADINGS, number, quoted, shape_columns, unit_columns};
 
 use super::{One, Pictures};
 use crate::LiveError;
@@ -53,7 +53,7 @@ impl Pictures {
             |stem| stem.to_string_lossy().into_owned(),
         );
         let bytes = match format {
-            "measures" => self.measures()?,
+            "measures" => self.measures().into_bytes(),
             "overlay" => self.overlay()?,
             "tracks" => self.tracks().into_bytes(),
             "csv" => self.table().into_bytes(),
@@ -128,40 +128,30 @@ impl Pictures {
         shapes::to_text_with(&self.shapes(), &columns)
     }
 
-    /// A table of measures.
-    fn measures(&self) -> Result<Vec<u8>, LiveError> {
-        let mut out = "id,label,class,sure,nodes,area,perimeter,x,y,error\n".to_owned();
+    /// A table of measures, in the columns of `snake fit --measure` as far as they are known here.
+    fn measures(&self) -> String {
+        let mut out = format!(
+            "picture,outline,label,class,outcome,{SHAPE_HEADINGS},standard_error_px,{UNIT_HEADINGS}\n"
+        );
+        let pixel = self.picture.pixel_size();
+        let pixel = pixel.map(|pixel| (pixel.x, pixel.y, &*pixel.unit));
         for (id, one) in &self.outlines {
-            let area = if one.closed {
-                elastic::signed_area(&one.points).abs()
-            } else {
-                0.0
-            };
-            let center = if one.closed && area > 0.0 {
-                elastic::centroid(&one.points)
-            } else {
-                None
-            };
-            let center = center.unwrap_or_else(|| elastic::center(&one.points, None));
-            let error = one
-                .mean_error()
-                .map_or_else(String::new, |error| format!("{error:.4}"));
-            let row = [
+            let rings = [one.points.clone()];
+            let ended = if one.sure { "found" } else { "unsure" };
+            let mut row = vec![
+                quoted(&self.frames[self.now].name),
                 id.to_string(),
                 quoted(&one.label),
                 quoted(&one.class),
-                one.sure.to_string(),
-                one.points.len().to_string(),
-                format!("{area:.3}"),
-                format!("{:.3}", elastic::length(&one.points, one.closed)),
-                format!("{:.3}", center.x),
-                format!("{:.3}", center.y),
-                error,
+                ended.to_owned(),
             ];
+            row.extend(shape_columns(&rings, one.closed, self.picture.levels()));
+            row.push(number(one.mean_error()));
+            row.extend(unit_columns(&rings, one.closed, pixel));
             out.push_str(&row.join(","));
             out.push('\n');
         }
-        Ok(out.into_bytes())
+        out
     }
 
     /// The picture with all outlines over it.
@@ -192,14 +182,5 @@ impl Pictures {
             }
         }
         out
-    }
-}
-
-/// A field of a table.
-fn quoted(words: &str) -> String {
-    if words.contains([',', '"']) {
-        format!("\"{}\"", words.replace('"', "\"\""))
-    } else {
-        words.to_owned()
     }
 }

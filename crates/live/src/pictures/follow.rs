@@ -1,11 +1,12 @@
 //! A sequence: frames that are shown one by one, and outlines that are followed through them.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use scene::fit::{Contour, Image};
 use track::{Event, Happening, Options, Start, State, Tracked, Tracker};
 
-use super::{One, Pictures, decoded, prepared};
+use super::{One, Pictures, prepared};
 use crate::LiveError;
 
 /// Outlines on their way through frames.
@@ -15,7 +16,7 @@ pub(crate) struct Following {
     /// The frame that the tracker has come to.
     frame: usize,
     /// Numbers of the outlines, by those of the tracker.
-    ids: Vec<u32>,
+    ids: BTreeMap<u32, u32>,
 }
 
 impl Pictures {
@@ -30,7 +31,7 @@ impl Pictures {
         if frame == self.now {
             return Ok(());
         }
-        let picture = decoded(&kept.name, &kept.bytes)?;
+        let picture = self.fitting(kept)?;
         let prepared = prepared(&picture, self.valid.as_deref())?;
         self.store();
         (self.picture, self.prepared, self.now) = (picture, prepared, frame);
@@ -53,7 +54,7 @@ impl Pictures {
     }
 
     /// Follow the outlines of this frame into those behind it.
-    pub(super) fn track(&mut self) -> Result<(), LiveError> {
+    pub(super) fn track(&mut self, births: bool) -> Result<(), LiveError> {
         if self.now + 1 >= self.frames.len() {
             return Err(LiveError::new(
                 "this is the last frame; there is none to follow outlines into",
@@ -77,11 +78,12 @@ impl Pictures {
         let options = Options {
             // what is shown was found or mended here
             start: Start::Exact,
+            births,
             ..Options::default()
         };
         let image = Image::of(Arc::<io::Picture>::clone(&self.picture));
         let tracker = Tracker::new(&image, &starts, &options).map_err(LiveError::of)?;
-        let ids = closed.iter().map(|(id, _)| *id).collect();
+        let ids = (1..).zip(closed.iter().map(|(id, _)| *id)).collect();
         self.facts.insert(self.now);
         self.following = Some(Following {
             tracker: Arc::new(tracker),
@@ -102,7 +104,7 @@ impl Pictures {
         }
         let tracker = Arc::make_mut(&mut following.tracker);
         let kept = self.frames[next].clone();
-        let tracked = match decoded(&kept.name, &kept.bytes) {
+        let tracked = match self.fitting(&kept) {
             Ok(picture) => match tracker.next(&Image::of(picture)) {
                 Ok(tracked) => tracked,
                 Err(_) => tracker.skip(),
@@ -110,11 +112,14 @@ impl Pictures {
             // a frame that cannot be read is flown over
             Err(_) => tracker.skip(),
         };
+        for outline in &tracked.outlines {
+            let new = self.next_id;
+            let id = *following.ids.entry(outline.id).or_insert(new);
+            self.next_id = self.next_id.max(id + 1);
+        }
         let outlines = tracked.outlines.iter().map(|outline| {
-            (
-                following.id(outline.id),
-                Arc::new(self.one_of(outline, following.id(outline.id))),
-            )
+            let id = following.id(outline.id);
+            (id, Arc::new(self.one_of(outline, id)))
         });
         let outlines = outlines.collect();
         let words = said(&tracked, &following);
@@ -150,10 +155,7 @@ impl Pictures {
 impl Following {
     /// The number of an outline by that of the tracker.
     fn id(&self, of: u32) -> u32 {
-        let index = usize::try_from(of).ok().and_then(|of| of.checked_sub(1));
-        index
-            .and_then(|index| self.ids.get(index).copied())
-            .unwrap_or(1_000_000 + of)
+        self.ids.get(&of).copied().unwrap_or(of)
     }
 }
 
@@ -162,13 +164,25 @@ fn said(tracked: &Tracked, following: &Following) -> Vec<String> {
     let words = |event: &Event| {
         let id = following.id(event.id);
         let what = match &event.what {
-            Happening::Hidden => "is hidden",
-            Happening::Found => "is seen again",
-            Happening::Left => "has left the frame",
-            Happening::Lost => "is lost",
-            Happening::Merged(_) => "cannot be told from another one any more",
-            Happening::Uncertain(_) => "may have been taken for another one from here on",
-            Happening::Skipped => "was carried over a frame that could not be read",
+            Happening::Hidden => "is hidden".to_owned(),
+            Happening::Found => "is seen again".to_owned(),
+            Happening::Left => "has left the frame".to_owned(),
+            Happening::Lost => "is lost".to_owned(),
+            Happening::Divided([a, b]) => format!(
+                "has become outlines {} and {}",
+                following.id(*a),
+                following.id(*b)
+            ),
+            Happening::Born => "is new".to_owned(),
+            Happening::Merged(other) => format!(
+                "cannot be told from outline {} any more",
+                following.id(*other)
+            ),
+            Happening::Uncertain(other) => format!(
+                "may have been exchanged with outline {} from here on",
+                following.id(*other)
+            ),
+            Happening::Skipped => "was carried over a frame that could not be read".to_owned(),
             _ => return None,
         };
         Some(format!("outline {id} {what} ({:.2})", event.confidence))

@@ -15,10 +15,11 @@ mod tile;
 mod view;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 use std::sync::Arc;
 
 use glam::DVec2;
-use io::Picture;
+use io::{Picture, PictureReading};
 use ndarray::Array2;
 use scene::fit::{Image, Options, Prepared};
 
@@ -35,11 +36,41 @@ pub(crate) use tile::{Tones, tile};
 /// Frames that a sequence may have.
 const MOST_FRAMES: usize = 20_000;
 
-/// A frame as it was given: its name and the bytes of its file.
+/// A frame as it was given: its name, the bytes of its file, and its page of a file of several, from 1.
 #[derive(Debug, Clone)]
 struct Kept {
     name: Arc<str>,
     bytes: Arc<[u8]>,
+    page: Option<usize>,
+}
+
+impl Kept {
+    /// The frames of a file: its pages, or itself.
+    fn all(name: &str, bytes: &Arc<[u8]>) -> Result<Vec<Self>, LiveError> {
+        let refused = |error: io::IoError| LiveError::of(error);
+        let pages = Picture::pages_named(bytes, Path::new(name), None).map_err(refused)?;
+        let one = |page: Option<usize>| Self {
+            name: page.map_or_else(|| name.into(), |page| format!("{name}, page {page}").into()),
+            bytes: Arc::clone(bytes),
+            page,
+        };
+        Ok(if pages > 1 {
+            (1..=pages).map(|page| one(Some(page))).collect()
+        } else {
+            vec![one(None)]
+        })
+    }
+
+    /// Its picture.
+    fn picture(&self) -> Result<Arc<Picture>, LiveError> {
+        let reading = PictureReading {
+            page: self.page,
+            ..PictureReading::default()
+        };
+        let picture = Picture::decode_as(&self.bytes, &reading);
+        let picture = picture.map_err(|error| LiveError::new(format!("{}: {error}", self.name)))?;
+        Ok(Arc::new(picture))
+    }
 }
 
 /// A picture with outlines; of a sequence, that of the frame which is shown.
@@ -74,14 +105,15 @@ pub(crate) struct Pictures {
 impl Pictures {
     /// A picture from the bytes of its file.
     pub(crate) fn open(name: &str, bytes: &Arc<[u8]>) -> Result<Self, LiveError> {
-        let picture = decoded(name, bytes)?;
+        Self::begin(Arc::new(Kept::all(name, bytes)?))
+    }
+
+    /// The first of some frames, without any outline.
+    fn begin(frames: Arc<Vec<Kept>>) -> Result<Self, LiveError> {
+        let picture = frames[0].picture()?;
         let prepared = prepared(&picture, None)?;
-        let kept = Kept {
-            name: name.into(),
-            bytes: Arc::clone(bytes),
-        };
         Ok(Self {
-            frames: Arc::new(vec![kept]),
+            frames,
             now: 0,
             picture,
             prepared,
@@ -99,31 +131,36 @@ impl Pictures {
         })
     }
 
-    /// One more frame behind the others.
+    /// One more frame behind the others, or all pages of one more file.
     pub(crate) fn add_frame(&mut self, name: &str, bytes: &Arc<[u8]>) -> Result<(), LiveError> {
-        if self.frames.len() >= MOST_FRAMES {
+        let more = Kept::all(name, bytes)?;
+        if self.frames.len() + more.len() > MOST_FRAMES {
             return Err(LiveError::new(format!(
                 "a sequence may have {MOST_FRAMES} frames at most"
             )));
         }
-        let (size, got) = (self.picture.size(), decoded(name, bytes)?.size());
-        if got != size {
-            return Err(LiveError::new(format!(
-                "{name} has {}×{} pixels; a frame of this sequence must have {}×{}",
-                got.0, got.1, size.0, size.1
-            )));
-        }
-        Arc::make_mut(&mut self.frames).push(Kept {
-            name: name.into(),
-            bytes: Arc::clone(bytes),
-        });
+        // further pages when they are looked at
+        self.fitting(&more[0])?;
+        Arc::make_mut(&mut self.frames).extend(more);
         Ok(())
+    }
+
+    /// The picture of a frame, which must be as large as the others.
+    fn fitting(&self, kept: &Kept) -> Result<Arc<Picture>, LiveError> {
+        let picture = kept.picture()?;
+        let (size, got) = (self.picture.size(), picture.size());
+        if got == size {
+            return Ok(picture);
+        }
+        Err(LiveError::new(format!(
+            "{} has {}×{} pixels; a frame of this sequence must have {}×{}",
+            kept.name, got.0, got.1, size.0, size.1
+        )))
     }
 
     /// The same pictures without any outline.
     pub(crate) fn again(&self) -> Result<Self, LiveError> {
-        let mut again = Self::open(&self.frames[0].name, &self.frames[0].bytes)?;
-        again.frames.clone_from(&self.frames);
+        let mut again = Self::begin(Arc::clone(&self.frames))?;
         again.version = self.version + 1;
         Ok(again)
     }
@@ -164,6 +201,7 @@ impl Pictures {
                 points,
                 closed,
             } => self.start(*drawn, points, *closed)?,
+            Outline::All => self.find_all()?,
             Outline::File { name, search } => self.start_of_file(name, rest, *search)?,
             Outline::Again { id } => self.search_again(*id)?,
             Outline::Delete { id } => {
@@ -210,7 +248,7 @@ impl Pictures {
                 self.following = None;
                 self.go(*frame)
             }
-            Frames::Track => self.track(),
+            Frames::Track { births } => self.track(*births),
             Frames::Stop => {
                 self.following = None;
                 Ok(())
@@ -280,13 +318,6 @@ impl Pictures {
             out.extend(valid.iter().filter(|ok| !**ok).count().to_le_bytes());
         }
     }
-}
-
-/// The picture in the bytes of a file.
-fn decoded(name: &str, bytes: &[u8]) -> Result<Arc<Picture>, LiveError> {
-    let picture = Picture::decode(bytes);
-    let picture = picture.map_err(|error| LiveError::new(format!("{name}: {error}")))?;
-    Ok(Arc::new(picture))
 }
 
 /// A picture ready for searches, of which only these pixels count.

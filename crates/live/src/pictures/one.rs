@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use glam::DVec2;
+use instances::Object;
 use scene::fit::{Choices, Evidence, Fit};
 
 /// An outline in a picture.
@@ -61,6 +62,29 @@ impl One {
             explained: fit.chosen.to_string(),
             start: start.to_vec(),
             candidates,
+            ..Self::default()
+        }
+    }
+
+    /// One of all objects of a picture; `unsure` is the edge that it needs.
+    pub(super) fn among(object: Object, middle: DVec2, unsure: f64) -> Self {
+        let closed = object.support.closed;
+        let sure = closed >= unsure;
+        let words = if sure {
+            format!(
+                "found: four fifths of the outline have an edge of {closed:.2} of the strongest"
+            )
+        } else {
+            format!(
+                "four fifths of the outline have an edge of {closed:.2} of the strongest, needed: {unsure:.2}"
+            )
+        };
+        Self {
+            points: object.outline,
+            closed: true,
+            sure,
+            words,
+            start: vec![middle],
             ..Self::default()
         }
     }

@@ -4,13 +4,15 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::DVec2;
+use instances::{Rules, Seeds, outline_all};
 use io::shapes::{self, Format, Reading, Shape};
+use outline::{Place, place};
 use scene::elastic::{self, Parameter};
 use scene::fit::Contour;
 
 use super::{One, Pictures};
 use crate::request::Drawn;
-use crate::sandbox::place;
+use crate::sandbox::place as point;
 use crate::{LiveError, Pair};
 
 /// Outlines that a picture may have here.
@@ -25,7 +27,7 @@ pub(super) fn drawn_curve(
     points: &[Pair],
     closed: bool,
 ) -> Result<Contour, LiveError> {
-    let clicks: Vec<DVec2> = points.iter().map(|p| place(*p)).collect::<Result<_, _>>()?;
+    let clicks: Vec<DVec2> = points.iter().map(|p| point(*p)).collect::<Result<_, _>>()?;
     let corners = || match clicks[..] {
         [one, other] => Ok((one, other)),
         _ => {
@@ -121,6 +123,34 @@ impl Pictures {
         self.set_out(id, &one);
         self.outlines.insert(id, Arc::new(one));
         Ok(id)
+    }
+
+    /// Find all objects that lie apart from the outlines that are there.
+    pub(super) fn find_all(&mut self) -> Result<(), LiveError> {
+        let rules = Rules::default();
+        let found = outline_all(&*self.picture, &Seeds::Auto, &rules).map_err(LiveError::of)?;
+        let is_taken = |middle: DVec2| {
+            let mut closed = self.outlines.values().filter(|one| one.closed);
+            closed.any(|one| place(&one.points, middle) == Place::Inside)
+        };
+        let ones: Vec<One> = found
+            .objects
+            .into_iter()
+            .filter_map(|object| {
+                let middle = elastic::centroid(&object.outline)?;
+                (!is_taken(middle)).then(|| One::among(object, middle, rules.unsure))
+            })
+            .collect();
+        if ones.is_empty() {
+            return Err(LiveError::new(
+                "no further object was found in this picture; choose Click and click inside one",
+            ));
+        }
+        for one in ones {
+            let one = self.kept_out(one);
+            self.admit(one)?;
+        }
+        Ok(())
     }
 
     /// Take the outlines of a file.

@@ -42,13 +42,17 @@ pub enum Action {
     Redo,
     /// Return to the start.
     Reset,
-    /// Open a scene: a shipped one by its name, or one of one's own by its text.
+    /// Open a scene: a shipped one by its name, or one of one's own by its text. The files that a text names come with
+    /// the message, one behind the other.
     Scene {
         /// Its name.
         name: String,
         /// Its text in TOML; None for a shipped scene.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         text: Option<String>,
+        /// Names of those files as the text has them, and how many bytes each is long.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        files: Vec<(String, usize)>,
     },
     /// Open a picture, the bytes of whose file come with the message.
     Picture {
@@ -66,6 +70,18 @@ pub enum Action {
     Frames(Frames),
 }
 
+impl Action {
+    /// Open a shipped scene.
+    #[must_use]
+    pub fn shipped(name: &str) -> Self {
+        Self::Scene {
+            name: name.to_owned(),
+            text: None,
+            files: Vec::new(),
+        }
+    }
+}
+
 /// A change of a sequence of frames.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "do", rename_all = "kebab-case", deny_unknown_fields)]
@@ -76,7 +92,11 @@ pub enum Frames {
         frame: usize,
     },
     /// Follow the outlines of the frame that is shown into the frames behind it.
-    Track,
+    Track {
+        /// Whether objects may divide, and new ones appear: for cells and the like.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        births: bool,
+    },
     /// Follow no further.
     Stop,
 }

@@ -34,6 +34,8 @@ pub enum Outline {
         #[serde(default = "yes")]
         closed: bool,
     },
+    /// Find all objects of the picture, one outline each; those that are there stay.
+    All,
     /// Take outlines from a file, whose bytes come with the message.
     File {
         /// The name of the file.

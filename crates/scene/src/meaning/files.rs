@@ -77,6 +77,12 @@ fn once<T>(
 
 /// Every file that is read besides the text itself.
 pub(super) fn named(text: &SceneText, folder: &Path) -> Vec<PathBuf> {
+    let names = names(text).into_iter();
+    names.map(|name| folder.join(name)).collect()
+}
+
+/// Their names as the text has them.
+pub(crate) fn names(text: &SceneText) -> Vec<&String> {
     let picture = text.picture.iter();
     let pictures = picture.flat_map(|picture| [&picture.file, &picture.mask]);
     let mut names: Vec<&String> = pictures.flatten().collect();
@@ -100,7 +106,7 @@ pub(super) fn named(text: &SceneText, folder: &Path) -> Vec<PathBuf> {
             names.extend(map(damping));
         }
     }
-    names.into_iter().map(|name| folder.join(name)).collect()
+    names
 }
 
 /// The file of a parameter's map.

@@ -21,7 +21,7 @@ use io::{Invalid, Picture};
 use snake::{Snake, SnakeError, Turning};
 
 use files::Files;
-pub(crate) use files::Held;
+pub(crate) use files::{Held, names};
 use force::Sight;
 
 pub(crate) use hand::force_now;

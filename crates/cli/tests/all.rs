@@ -1,0 +1,35 @@
+//! All tests of the command in one program, which is linked once.
+
+mod bad_numbers;
+mod bad_outputs;
+mod bad_pictures;
+mod bad_scenes;
+mod bad_steps;
+mod bad_tracks;
+mod batches;
+mod changes;
+mod chosen_steps;
+mod commands;
+mod common;
+mod curves;
+mod doubtful_tracks;
+mod eval;
+mod eval_sequences;
+mod eval_sets;
+mod finder;
+mod fit_results;
+mod fit_ways;
+mod given_starts;
+mod given_tracks;
+mod manners;
+mod many_objects;
+mod neighbours;
+mod odd_pictures;
+mod outcomes;
+mod own_tracks;
+mod plenty;
+mod resumed_tracks;
+mod same_file;
+mod stored_pictures;
+mod tracks;
+mod window;

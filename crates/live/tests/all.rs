@@ -1,0 +1,5 @@
+//! All tests of the engine in one program, which is linked once.
+
+mod chance;
+mod files;
+mod replay;
