@@ -16,7 +16,11 @@ const LARGEST: f64 = 0.5;
 
 /// The power of an outline's radius that counts beside its edge: of many small closed curves in noise or texture one
 /// has a strong edge by chance.
-const SIZE: f64 = 0.4;
+const SIZE: f64 = 0.3;
+
+/// The power of the number of circles that lead to an outline of its area, and by which factor areas are alike.
+const AGAIN: f64 = 0.2;
+const ALIKE: f64 = 1.2;
 
 /// Points of the circles.
 const POINTS: u32 = 64;
@@ -32,8 +36,8 @@ const SMALLER: f64 = 0.25;
 /// Points across a box about two outlines that say how much they overlap.
 const ACROSS: u32 = 48;
 
-/// Look for the outline around a place: circles of growing size are tried, and the outline that is closed best for
-/// its size is taken, the first of equals. None for a place outside the picture.
+/// Look for the outline around a place: circles of growing size are tried, and the outline is taken that is closed
+/// best for its size and for how many circles lead to it, the first of equals. None for a place outside the picture.
 ///
 /// The same is done from places beside it within that outline: [`Searched::steady`] says how far they agree.
 #[must_use]
@@ -83,36 +87,41 @@ fn best_of(
     rules: &Rules,
     (least, most): (f64, f64),
 ) -> Option<Searched> {
-    let mut best: Option<Searched> = None;
+    // with their areas and the radii of the circles
+    let mut found: Vec<(Searched, f64, f64)> = Vec::new();
     let mut radius = SMALLEST;
     while radius <= most {
-        if radius < least {
-            radius *= LARGER;
-            continue;
-        }
-        let turn = |i| DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / f64::from(POINTS));
-        let points = (0..POINTS).map(|i| place + radius * turn(i)).collect();
-        let found = find(
-            pixels,
-            &Polygon {
-                points,
+        if radius >= least {
+            let turn =
+                |i| DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / f64::from(POINTS));
+            let start = Polygon {
+                points: (0..POINTS).map(|i| place + radius * turn(i)).collect(),
                 closed: true,
-            },
-            rules,
-        );
-        // an outline that leaves the place out is that of something else
-        let found = found.filter(|found| outline::winding(&found.taken().points, place) != Some(0));
-        if let Some(found) = found {
-            let better = best
-                .as_ref()
-                .is_none_or(|known| worth(&found) > worth(known));
-            if better {
-                best = Some(found);
-            }
+            };
+            // an outline that leaves the place out is that of something else
+            let one = find(pixels, &start, rules)
+                .filter(|one| outline::winding(&one.taken().points, place) != Some(0));
+            found.extend(one.map(|one| {
+                let outline = Polygon {
+                    points: one.taken().points.clone(),
+                    closed: true,
+                };
+                let area = outline.area();
+                (one, area, radius)
+            }));
         }
         radius *= LARGER;
     }
-    best
+    let worth = |(one, area, radius): &(Searched, f64, f64)| {
+        let alike = |other: &f64| other.max(*area) <= ALIKE * other.min(*area);
+        let again = found.iter().filter(|(_, other, _)| alike(other)).count();
+        one.taken().support.throughout() * radius.powf(SIZE) * (again as f64).powf(AGAIN)
+    };
+    let values: Vec<f64> = found.iter().map(worth).collect();
+    let first = (0..values.len())
+        .rev()
+        .max_by(|a, b| values[*a].total_cmp(&values[*b]))?;
+    Some(found.swap_remove(first).0)
 }
 
 /// How much two outlines have in common of what both enclose, by points of a grid.
@@ -130,10 +139,4 @@ fn overlap(a: &[DVec2], b: &[DVec2]) -> f64 {
         }
     }
     f64::from(both) / f64::from(either.max(1))
-}
-
-/// What speaks for an outline among others of other sizes: that of the start counts that it was found from.
-fn worth(found: &Searched) -> f64 {
-    let radius = found.seen.radius * found.pixel;
-    found.taken().support.whole() * radius.powf(SIZE)
 }

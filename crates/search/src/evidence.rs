@@ -54,8 +54,18 @@ impl Support {
 
     /// How closed the edge is, less where it is of both polarities: the edges of one object are of one, as a rule.
     pub(crate) fn whole(&self) -> f64 {
+        self.closed * self.purity()
+    }
+
+    /// The same, with the weakest part of the edge: a curve around several objects has none between them.
+    pub(crate) fn throughout(&self) -> f64 {
+        0.5 * (self.closed + self.weakest) * self.purity()
+    }
+
+    /// How much of one polarity the edge is. 0 … 1.
+    fn purity(&self) -> f64 {
         if self.edge > 0.0 {
-            self.closed * (self.polar / self.edge / PURE).min(1.0).sqrt()
+            (self.polar / self.edge / PURE).min(1.0).sqrt()
         } else {
             0.0
         }

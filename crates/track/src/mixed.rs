@@ -74,5 +74,6 @@ fn alike(now: Frame<'_>, one: &Object, other: &Object) -> f64 {
 fn fit(now: Frame<'_>, body: &Body, outline: &[DVec2]) -> f64 {
     let curve = body.to_cells(outline);
     let (curve, _) = ring::evenly(&curve, body.curve.len());
-    body.evidence_in(now.pixels, &curve, ring::radius(&curve), None).mean
+    body.evidence_in(now.pixels, &curve, ring::radius(&curve), None)
+        .mean
 }
