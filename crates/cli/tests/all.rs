@@ -31,5 +31,6 @@ mod plenty;
 mod resumed_tracks;
 mod same_file;
 mod stored_pictures;
+mod tables;
 mod tracks;
 mod window;

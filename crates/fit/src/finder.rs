@@ -31,16 +31,23 @@ const ROUNDS: u64 = 5;
 /// A start, or a part of one that crosses itself, counts from this area on. Square pixels.
 const LEAST_PART: f64 = 1.0;
 
-/// Find the outline about a start.
-pub(crate) fn found(prepared: &Prepared, start: &Contour) -> Result<Fit, FitError> {
+/// Find the outline about a start; None where `asked` has ended it before.
+pub(crate) fn found(
+    prepared: &Prepared,
+    start: &Contour,
+    asked: &dyn Fn() -> bool,
+) -> Result<Option<Fit>, FitError> {
     let pixels = prepared.image().pixels();
     let rules = &prepared.options().search;
     check_nodes(prepared.options().nodes, start.closed)?;
     let begun = begin(prepared, start)?;
     let searched = match &begun {
-        Begun::Click(place) => search::find_around(pixels, *place, rules),
-        Begun::Curve { curve, .. } if curve.closed && curve.area() < LEAST_PART => None,
-        Begun::Curve { curve, .. } => search::find(pixels, curve, rules),
+        Begun::Click(place) => search::find_around_unless(pixels, *place, rules, asked),
+        Begun::Curve { curve, .. } if curve.closed && curve.area() < LEAST_PART => Ok(None),
+        Begun::Curve { curve, .. } => search::find_unless(pixels, curve, rules, asked),
+    };
+    let Ok(searched) = searched else {
+        return Ok(None);
     };
     let Some(searched) = searched else {
         let message = "encloses nothing; a start with an area or a length is needed";
@@ -58,6 +65,9 @@ pub(crate) fn found(prepared: &Prepared, start: &Contour) -> Result<Fit, FitErro
         .map_or(0.0, |curve| LEAST_AREA * curve.area());
     let (taken, instead, curve) = valid(&searched, least, start_curve.as_ref());
     let curve = clipped(curve, prepared.image().size());
+    if asked() {
+        return Ok(None);
+    }
     let precise = precise(prepared, &searched, &curve, least);
     let (points, normals, edge) = (precise.points, precise.normals, precise.edge);
     let outline = Polygon {
@@ -133,7 +143,7 @@ pub(crate) fn found(prepared: &Prepared, start: &Contour) -> Result<Fit, FitErro
         points.reverse();
         nodes.reverse();
     }
-    Ok(Fit {
+    Ok(Some(Fit {
         contour: Contour {
             points,
             closed: outline.closed,
@@ -143,7 +153,7 @@ pub(crate) fn found(prepared: &Prepared, start: &Contour) -> Result<Fit, FitErro
         outcome: Outcome::Settled { step: ROUNDS },
         steps: ROUNDS,
         chosen: Choices::Search(chosen),
-    })
+    }))
 }
 
 /// Where a search begins.

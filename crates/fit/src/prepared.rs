@@ -17,6 +17,9 @@ use crate::{Contour, Fit, FitError, FitForce, Image, OptionKey, Options, Problem
 /// with its start.
 const MOST_BEYOND: f64 = 4.0;
 
+/// Steps of a motion between two looks at whether it is to end.
+const STEPS_A_LOOK: u64 = 50;
+
 /// An image with all that a fit needs of it, for any number of curves. Cloning it costs nothing; it
 /// may be shared by threads, and so are the tiles of lazy fields.
 ///
@@ -92,12 +95,49 @@ impl Prepared {
     pub fn fit(&self, start: &Contour) -> Result<Fit, FitError> {
         match self.0.options.method {
             Method::Search => {
-                self.check_reach(start)
-                    .map_err(|problem| FitError::new(OptionKey::Start, problem))?;
-                found(self, start)
+                let ended = || Problem::Other("has no answer: the search was ended".to_owned());
+                let found = self.fit_unless(start, &|| false)?;
+                found.ok_or_else(|| FitError::new(OptionKey::Start, ended()))
             }
             Method::Motion => Ok(self.session(start)?.finish()),
         }
+    }
+
+    /// [`Prepared::fit`] that ends early when `asked` says so; None then. It is looked at between the stages of a
+    /// search, which take some milliseconds each, and between the steps of a motion.
+    ///
+    /// ```
+    /// use fit::{Contour, Image, Options, Prepared};
+    /// use glam::DVec2;
+    ///
+    /// let image = Image::grey(field::Grid::from_shape_fn((61, 61), |(y, x)| (x * y) as f64 % 256.0));
+    /// let prepared = Prepared::of(&image, &Options::default())?;
+    /// let start = Contour::circle(DVec2::new(31.0, 30.0), 17.0);
+    /// assert!(prepared.fit_unless(&start, &|| true)?.is_none());
+    /// assert_eq!(prepared.fit_unless(&start, &|| false)?, Some(prepared.fit(&start)?));
+    /// # Ok::<(), fit::FitError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As [`Prepared::fit`].
+    pub fn fit_unless(
+        &self,
+        start: &Contour,
+        asked: &dyn Fn() -> bool,
+    ) -> Result<Option<Fit>, FitError> {
+        if self.0.options.method == Method::Search {
+            self.check_reach(start)
+                .map_err(|problem| FitError::new(OptionKey::Start, problem))?;
+            return found(self, start, asked);
+        }
+        let mut session = self.session(start)?;
+        while session.step(STEPS_A_LOOK).is_none() {
+            if asked() {
+                return Ok(None);
+            }
+        }
+        Ok(Some(session.finish()))
     }
 
     /// Refuse a start that reaches too far beyond the image, before anything of its size is made.

@@ -526,6 +526,11 @@ function cursor(to, app) {
  */
 export function remember(app) {
   if (!app.scene) return;
+  // one has gone back, or begun anew: those ways are not gone
+  if (app.scene.t < app.reached) app.trails.clear();
+  app.reached = app.scene.t;
+  const known = app.scene.snakes.map((/** @type {any} */ one) => one.id);
+  for (const id of app.trails.keys()) if (!known.includes(id)) app.trails.delete(id);
   for (const one of app.scene.snakes) {
     const trail = app.trails.get(one.id) || [];
     trail.push(one.center[0], one.center[1]);

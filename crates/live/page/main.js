@@ -74,6 +74,10 @@ export class App {
     this.saying = false;
     this.scrubbing = false;
     this.panelOf = "";
+    this.seen = "";
+    this.working = 0;
+    /** The time of the scene that was shown last. */
+    this.reached = 0;
     this.pointedAt = 0;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.sayer = undefined;
@@ -135,12 +139,15 @@ export class App {
   /** Something is being done: the user is told where it takes long. What is given back ends it. */
   works() {
     const words = "Working …";
+    this.working++;
     const timer = setTimeout(() => {
       document.body.classList.add("works");
       element("status").textContent = words;
     }, 400);
     return () => {
       clearTimeout(timer);
+      this.working--;
+      if (this.working) return;
       document.body.classList.remove("works");
       const status = element("status");
       if (status.textContent === words) status.textContent = "";
@@ -164,6 +171,8 @@ export class App {
       done();
     }
     if (more) return;
+    // what was said of something else
+    this.saying = false;
     this.saved = true;
     await this.reload();
     if (action.kind === "scene") this.act({ kind: "play" });
@@ -271,7 +280,7 @@ export class App {
       this.picture = { ...head.frame, outlines };
       this.scene = null;
     }
-    const opened = `${head.kind} ${head.frame && head.frame.version}`;
+    const opened = `${head.kind} ${head.opened} ${head.frame && head.frame.version}`;
     if (head.revision !== this.revision || opened !== this.opened) {
       const changed = opened !== this.opened;
       this.revision = head.revision;
@@ -290,7 +299,6 @@ export class App {
    */
   async changed(opened) {
     const { head } = await this.engine.call({ ask: { kind: "about" } });
-    const before = this.about;
     this.about = head.ok;
     if (!this.about) return;
     const other = this.panelOf !== `${this.kind} ${this.kind === "scene" ? this.about.name : ""}`;
@@ -302,16 +310,20 @@ export class App {
       this.toolbar();
     }
     const size = this.kind === "scene" ? this.about.picture : this.about.size;
-    const version = this.kind === "scene" ? this.about.name : `${this.about.version}`;
-    this.tiles.open(size, `${this.kind} ${version}`);
+    this.tiles.open(size, this.opened);
     if (this.kind === "scene") this.tiles.tone([0, 255, 1]);
-    const elsewhere = !before || JSON.stringify([before.window, before.size]) !== JSON.stringify([this.about.window, this.about.size]);
-    if (other || elsewhere) this.showAll();
-    if (this.pictures && (other || elsewhere)) this.pictures.refresh();
+    const seen = JSON.stringify([this.panelOf, this.about.window, this.about.size]);
+    const elsewhere = seen !== this.seen;
+    this.seen = seen;
+    if (elsewhere) this.showAll();
+    if (this.pictures && elsewhere) this.pictures.refresh();
     if (this.scenes) this.scenes.refresh();
     element("title").textContent = this.kind === "scene" ? this.about.title : this.about.name;
     if (this.scene) this.scene.hasPicture = !!this.about.picture;
     if (opened) this.ask();
+    // what came before it was known what is open
+    if (this.latest) this.bar(this.latest.head);
+    if (this.pictures && this.kind === "picture") this.pictures.frame();
     this.redraw();
   }
 
@@ -498,6 +510,11 @@ export class App {
     frame.onchange = () => {
       this.scrubbing = false;
     };
+    // a button that was clicked by a mouse does not keep the keys: Space runs
+    addEventListener("click", (event) => {
+      const button = event.detail > 0 && /** @type {HTMLElement} */ (event.target).closest("button, summary");
+      if (button && !button.closest("dialog")) /** @type {HTMLElement} */ (button).blur();
+    });
     this.pointers();
     const stage = element("stage");
     const drop = element("drop");

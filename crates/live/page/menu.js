@@ -100,7 +100,8 @@ export async function open(app, files) {
   for (const file of sorted) {
     const bytes = new Uint8Array(await file.arrayBuffer());
     try {
-      if (/\.snakes\.json$/i.test(file.name)) {
+      const text = /\.json$/i.test(file.name) ? new TextDecoder().decode(bytes.subarray(0, 200)) : "";
+      if (text.includes('"snakes-session"')) {
         await app.engine.call({ session: true }, bytes);
         await app.reload();
       } else if (OUTLINES.test(file.name)) {

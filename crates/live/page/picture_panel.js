@@ -5,6 +5,8 @@ import { check, make } from "./parts.js";
 import { ofObject, ofStrength } from "./colors.js";
 import { floats } from "./packet.js";
 
+const POINT = "Point at a node: grey along its normal, inside to the left, and the edge it holds to at 0.";
+
 export class PicturePanel {
   /**
    * @param {import("./main.js").App} app
@@ -39,7 +41,7 @@ export class PicturePanel {
     buttons.append(part);
     known.append(buttons);
     this.profile = new Plot(box, "Grey along the normal");
-    this.under = make("p", { className: "words" }, "Point at a node: grey along its normal, inside to the left, and the edge it holds to at 0.");
+    this.under = make("p", { className: "words" }, POINT);
     box.append(this.under);
     const shown = make("div", { className: "row" });
     box.append(make("h2", {}, "Show"), shown);
@@ -64,6 +66,7 @@ export class PicturePanel {
     }
     this.events = make("p", { className: "words" });
     box.append(this.events);
+    this.profiled = false;
     this.listed = "";
     this.known = "";
     this.asked = 0;
@@ -95,7 +98,14 @@ export class PicturePanel {
       this.none.hidden = picture.outlines.length > 0;
       this.rows.replaceChildren(...picture.outlines.slice(0, 400).map((/** @type {any} */ one) => this.row(one)));
     }
+    // a row that is typed in stays as it is
+    for (const row of this.rows.rows) row.setAttribute("aria-selected", String(Number(row.dataset.outline) === app.chosen));
     const chosen = picture.outlines.find((/** @type {any} */ o) => o.id === app.chosen);
+    if (!picture.outlines.length && this.profiled) {
+      this.profiled = false;
+      this.profile.clear();
+      this.under.textContent = POINT;
+    }
     this.words.textContent = chosen ? `${chosen.label}: ${chosen.words}.${chosen["mean-error"] === null ? "" : ` Standard error ${chosen["mean-error"].toFixed(2)} px in the mean.`}` : "";
     const known = chosen ? `${chosen.id} ${chosen.words} ${chosen.points.length} ${app.revision}` : "";
     if (known !== this.known) {
@@ -119,7 +129,7 @@ export class PicturePanel {
       app.act({ kind: "outline", do: "delete", id: one.id });
     };
     const chip = make("span", { className: "chip", style: `background:${one.sure ? ofObject(one.id) : "var(--bad)"}`, title: one.sure ? "sure" : "unsure" });
-    const row = make("tr", { "aria-selected": String(one.id === app.chosen) },
+    const row = make("tr", { "aria-selected": String(one.id === app.chosen), "data-outline": String(one.id) },
       make("td", {}, chip), make("td", {}, name), make("td", {}, kind),
       make("td", {}, one.area === null ? "open" : one.area.toFixed(0)),
       make("td", {}, one["mean-error"] === null ? "–" : short(one["mean-error"])), make("td", {}, gone));
@@ -159,6 +169,7 @@ export class PicturePanel {
     try {
       const known = (await this.app.engine.call({ ask: { kind: "profile", id, node } })).head.ok;
       this.profile.lines([{ name: `node ${node}`, x: known.ways, y: known.levels }], "pixels outwards");
+      this.profiled = true;
       const error = known.error === null ? "not measured" : `${known.error.toFixed(3)} px`;
       this.under.textContent = `Outline ${id}, node ${node}: edge ${known.strength === null ? "–" : known.strength.toFixed(2)}, standard error ${error}.`;
     } catch {

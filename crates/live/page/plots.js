@@ -63,6 +63,13 @@ export class Plot {
     this.drawn = "";
   }
 
+  /** Show nothing. */
+  clear() {
+    this.picture.replaceChildren();
+    this.table = "";
+    this.drawn = "";
+  }
+
   /** @param {string} kind */
   save(kind) {
     const text = kind === "svg" ? this.standalone() : this.table;

@@ -147,8 +147,7 @@ export class ScenePanel {
   async move(mass, damping, end) {
     const { app } = this;
     const round = (/** @type {number} */ v) => Number(v.toPrecision(3));
-    await app.act({ kind: "body", do: "set", key: "mass", value: round(mass), snake: app.chosen }, false);
-    await app.act({ kind: "body", do: "set", key: "damping", value: round(damping), snake: app.chosen }, end);
+    await app.act({ kind: "body", do: "plane", mass: round(mass), damping: round(damping), snake: app.chosen }, end);
   }
 
   /** Begin the plots over time anew. */

@@ -156,6 +156,7 @@ export class Hand {
       if (!found) return;
       app.choose(found.id);
       this.held = { tool, snake: found.id, node: found.node };
+      if (!app.playing) app.say("It stands still: Run, or Space, and it follows the hand.");
       body({ do: "drag", snake: found.id, node: found.node, to: world }, false);
     } else if (tool === "pin" && near) {
       const one = app.scene.snakes.find((/** @type {any} */ s) => s.id === near.id);
@@ -196,6 +197,11 @@ export class Hand {
     const { app } = this;
     const outline = (/** @type {any} */ change, end = true) => app.act({ kind: "outline", ...change }, end);
     if (tool === "click") {
+      const [width, height] = app.about.size;
+      if (world[0] < -0.5 || world[1] < -0.5 || world[0] > width - 0.5 || world[1] > height - 0.5) {
+        app.say("Click inside the picture.");
+        return;
+      }
       outline({ do: "start", drawn: "click", points: [world] });
     } else if (tool === "spline") {
       const last = this.clicks[this.clicks.length - 1];

@@ -203,7 +203,12 @@ impl Engine {
     pub fn export(&self, format: &str) -> Result<(String, Vec<u8>), LiveError> {
         if format == "session" {
             let bytes = self.session().text().into_bytes();
-            return Ok(("session.snakes.json".to_owned(), bytes));
+            let name = match &self.stage {
+                Stage::Empty => "session",
+                Stage::Scene(scene) => scene.name(),
+                Stage::Pictures(pictures) => pictures.name_of_first(),
+            };
+            return Ok((format!("{name}.snakes.json"), bytes));
         }
         match &self.stage {
             Stage::Empty => Err(LiveError::new("nothing is open")),

@@ -78,7 +78,10 @@ impl Engine {
     ///
     /// None today; a session that can be read can be begun.
     pub fn open_session(&mut self, session: Session) {
+        // a page must not take it for what was open before
+        let opened = self.opened + 1;
         *self = Self::new();
+        self.opened = opened;
         self.replay = Some(Replay { session, next: 0 });
     }
 

@@ -16,7 +16,7 @@ use crate::request::{Action, Frames};
 use crate::sandbox::Sandbox;
 use crate::session::{Said, Session};
 use crate::stage::Stage;
-use crate::undo::{Before, Gesture, Undo, gesture, opens};
+use crate::undo::{Before, Gesture, Undo, gesture, is_motion, opens};
 
 /// Steps by one message at most.
 const MOST_STEPS: u32 = 100_000;
@@ -75,6 +75,8 @@ pub struct Engine {
     unsaved: bool,
     /// Counts changes other than motion.
     pub(crate) revision: u64,
+    /// Counts what was opened.
+    pub(crate) opened: u64,
 }
 
 impl Engine {
@@ -133,14 +135,16 @@ impl Engine {
         } else if !matches!(gesture, Gesture::None | Gesture::Run) {
             self.unsaved = true;
         }
-        let replaces = !wanted && matches!(gesture, Gesture::Part(_));
+        // frames that are opened one after the other are one gesture, and each of them counts
+        let is_frame = matches!(action, Action::Picture { .. });
+        let replaces = !wanted && !is_frame && matches!(gesture, Gesture::Part(_));
         let said = Said {
             at: self.session.steps,
             action: action.clone(),
             file: Arc::clone(rest),
         };
         self.session.say(said, replaces);
-        if !matches!(gesture, Gesture::None | Gesture::Run | Gesture::Part(_)) {
+        if !is_motion(action) {
             self.revision += 1;
         }
         self.changed = true;
@@ -229,6 +233,7 @@ impl Engine {
     fn open(&mut self, stage: Stage) {
         self.playing = false;
         self.stage = stage;
+        self.opened += 1;
         (self.owed, self.most, self.reached) = (0.0, 4.0, 1.0);
         (self.undo, self.past) = (Undo::default(), Past::default());
         self.session = Session::default();
@@ -330,7 +335,7 @@ impl Engine {
         let (undo, redo) = self.undo.counts();
         packet.head = json!({
             "frame": view, "kind": self.stage.kind(), "playing": self.playing, "speed": self.speed,
-            "reached": self.reached, "undo": undo, "redo": redo, "revision": self.revision,
+            "reached": self.reached, "undo": undo, "redo": redo, "revision": self.revision, "opened": self.opened,
             "replaying": self.replay.as_ref().map(|replay| json!([self.session.steps, replay.session.steps])),
         });
         packet.encode()

@@ -116,6 +116,21 @@ pub(crate) const fn opens(action: &Action) -> bool {
     )
 }
 
+/// Whether an action is motion alone, which changes nothing that a page lists.
+pub(crate) const fn is_motion(action: &Action) -> bool {
+    matches!(
+        action,
+        Action::Play
+            | Action::Pause
+            | Action::Speed { .. }
+            | Action::Step { .. }
+            | Action::Back { .. }
+            | Action::Body(Body::Drag { .. } | Body::Push { .. })
+            | Action::Outline(Outline::Drag { .. })
+            | Action::Picture { frame: true, .. }
+    )
+}
+
 /// What gesture an action belongs to.
 pub(crate) fn gesture(action: &Action) -> Gesture {
     let part = |words: String| Gesture::Part(words);
@@ -129,6 +144,7 @@ pub(crate) fn gesture(action: &Action) -> Gesture {
             index: Some(index), ..
         }) => part(format!("wall {index}")),
         Action::Body(Body::Set { key, snake, .. }) => part(format!("set {key} {snake:?}")),
+        Action::Body(Body::Plane { snake, .. }) => part(format!("plane {snake:?}")),
         Action::Body(Body::Stepping { scheme: None, .. }) => part("step".to_owned()),
         Action::Outline(Outline::Drag { id, node, .. }) => part(format!("drag {id} {node}")),
         Action::Body(Body::Drop | Body::Leave) | Action::Outline(Outline::Drop) => Gesture::End,

@@ -28,13 +28,20 @@ first = bag.compute(scheduler="threads")
 again = bag.compute(scheduler="threads")
 table = Results(folder / "results").table()
 
-figure, axes = plt.subplots(figsize=(5, 3.5))
-radii = np.sqrt(np.array(table["area"]) / np.pi)
-axes.plot(12 + np.arange(24) / 2, radii, "o")
-axes.plot([12, 24], [12, 24], "k:", linewidth=1)
-axes.set_xlabel("radius drawn, pixels")
-axes.set_ylabel("radius found, pixels")
+figure, (left, right) = plt.subplots(1, 2, figsize=(8, 3.2), width_ratios=[2, 3])
+for row in table.slice(0, table.num_rows).to_pylist()[::6]:
+    left.plot([*row["x"], row["x"][0]], [*row["y"], row["y"][0]], label=row["image"].split("/")[-1])
+left.set_aspect("equal")
+left.invert_yaxis()
+left.legend(fontsize=7, loc="center")
+left.set_title("four rows of the table", fontsize=9)
+drawn, radii = 12 + np.arange(24) / 2, np.sqrt(np.array(table["area"]) / np.pi)
+right.plot(drawn, radii - drawn, "o")
+right.axhline(0, color="black", linewidth=0.5)
+right.set_ylim(-0.1, 0.1)
+right.set_xlabel("radius drawn, pixels")
+right.set_ylabel("radius found less that, pixels")
 figure.tight_layout()
 
 assert {one["done"] for one in first} == {"now"} and {one["done"] for one in again} == {"before"}
-assert table.num_rows == 24 and np.abs(radii - (12 + np.arange(24) / 2)).max() < 0.1
+assert table.num_rows == 24 and np.abs(radii - drawn).max() < 0.1

@@ -32,20 +32,22 @@ found = pysnakes.dask.fit_blocks(pixels, labels, depth=40).compute(scheduler="th
 objects = pysnakes.dask.stitch(found)
 painted = np.asarray(pysnakes.dask.labels(objects, pixels.shape, chunks=pixels.chunks))
 
-figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.6))
+figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8))
 left.imshow(image, cmap="gray")
 for one in found:
-    one.outline.plot(left, linewidth=0.8, color=plt.get_cmap("tab20")((one.block[0] * 4 + one.block[1]) % 20))
-left.set_title(f"{len(found)} outlines of 12 blocks", fontsize=9)
-right.imshow(np.where(painted > 0, painted * 7 % 20 + 1, 0), cmap="tab20")
-right.set_title(f"{len(objects)} objects", fontsize=9)
+    one.outline.plot(left, linewidth=1.5, color=plt.get_cmap("tab20")((one.block[0] * 4 + one.block[1]) % 20))
+left.set_title(f"{len(found)} outlines, a color for each of the 12 blocks", fontsize=9)
+right.imshow(np.ma.masked_equal(painted * 7 % 20 + (painted > 0), 0), cmap="tab20")
+right.set_facecolor("black")
+right.set_title(f"labels of {len(objects)} objects, the same on both sides of a border", fontsize=9)
 for axes in (left, right):
     for edge in (100, 200, 300):
         axes.axvline(edge, color="white", linewidth=0.4)
         axes.axhline(edge, color="white", linewidth=0.4)
     axes.set_xlim(0, 399)
     axes.set_ylim(299, 0)
-    axes.axis("off")
+    axes.set_xticks([])
+    axes.set_yticks([])
 figure.tight_layout()
 
 assert len(objects) == len(centers) and (painted > 0).sum() < 1.02 * (inside > 0.5).sum()

@@ -15,7 +15,13 @@ image = np.clip(30.5 - np.hypot(x - 60, (y - 60) * 1.3), 0, 1) * (1 - np.clip(8.
 
 figure, all_axes = plt.subplots(2, 3, figsize=(7.5, 5.2))
 all_axes[0, 0].imshow(image, cmap="gray")
-all_axes[0, 0].set_title("image", fontsize=9)
+all_axes[0, 0].set_title("image, and colors of directions", fontsize=9)
+down, right = np.mgrid[-1:1:81j, -1:1:81j]
+hue = np.arctan2(down, right) / (2 * np.pi) + 0.5
+wheel = np.concatenate([hsv_to_rgb(np.stack([hue, hue**0, hue**0], axis=-1)), (np.hypot(right, down) < 1)[..., None]], axis=-1)
+legend = all_axes[0, 0].inset_axes((0.76, 0.02, 0.22, 0.22))
+legend.imshow(wheel)
+legend.axis("off")
 far = {}
 for kind, axes in zip(["edge", "scales", "distance", "gvf", "vfc"], all_axes.flat[1:]):
     force = pysnakes.force_field(image, kind)

@@ -26,7 +26,9 @@ for sigma in (2.0, 5.0, 10.0, 20.0):
 
 figure, axes = plt.subplots(figsize=(4.5, 4))
 axes.loglog(stated, true, "o")
-axes.loglog([0.01, 1], [0.01, 1], "k:", linewidth=1)
+axes.loglog([0.006, 0.1], [0.006, 0.1], "k:", linewidth=1)
+axes.set_xlim(0.006, 0.1)
+axes.set_ylim(0.006, 0.1)
 for sigma, a, b in zip((2, 5, 10, 20), stated, true):
     axes.annotate(f" noise {sigma}", (a, b), fontsize=8)
 axes.set_xlabel("standard error stated, pixels")

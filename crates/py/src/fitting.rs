@@ -6,8 +6,9 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use fit::{Evidence, Method, in_order};
+use fit::{Evidence, in_order};
 use numpy::{IntoPyArray, PyReadonlyArray2};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use snakes::{Contour, Fit, FitError};
@@ -44,22 +45,19 @@ impl Prepared {
         };
         let prepared = self.0.clone();
         let found = attended(py, move |stop| fit(&prepared, &start, stop))?;
-        told(py, &found.map_err(value)?)
+        // it ends early only where the user has asked for it
+        let found = found.map_err(value)?;
+        told(py, &found.ok_or_else(|| PyKeyboardInterrupt::new_err(()))?)
     }
 }
 
-/// A motion is asked now and then whether to stop.
-fn fit(prepared: &snakes::Prepared, start: &Contour, stop: &AtomicBool) -> Result<Fit, FitError> {
-    if prepared.options().method == Method::Search {
-        return prepared.fit(start);
-    }
-    let mut session = prepared.session(start)?;
-    while session.step(50).is_none() {
-        if stop.load(Ordering::Relaxed) {
-            return Ok(session.stop());
-        }
-    }
-    Ok(session.finish())
+/// A fit that ends early once it is asked to; None then.
+fn fit(
+    prepared: &snakes::Prepared,
+    start: &Contour,
+    stop: &AtomicBool,
+) -> Result<Option<Fit>, FitError> {
+    prepared.fit_unless(start, &|| stop.load(Ordering::Relaxed))
 }
 
 /// What a fit has found.
@@ -168,7 +166,8 @@ impl Batch {
                     Some(Err(panic)) => return Err(Python::attach(|py| panic.clone_ref(py))),
                     None => guarded(|| snakes::Prepared::of(&images[*image], &options))?,
                 };
-                guarded(|| Some(prepared.and_then(|prepared| fit(&prepared, start, &told))))
+                let fit = |prepared: snakes::Prepared| fit(&prepared, start, &told);
+                guarded(|| prepared.and_then(fit).transpose())
             };
             in_order(&jobs, threads, work, |_, answer| {
                 let _ = send.send(answer); // nobody may want it any more

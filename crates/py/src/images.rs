@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
-use ndarray::{Array2, ArrayView, ArrayView2, ArrayView3, Dimension};
+use ndarray::{Array2, ArrayView, ArrayView3, Dimension, Ix2, Ix3};
 use numpy::{Element, PyReadonlyArray, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -41,25 +41,26 @@ fn lent<T: Element, D: Dimension>(array: &PyReadonlyArray<'_, T, D>) -> ArrayVie
         unsafe_code,
         reason = "the array is kept alive by the owner beside the view"
     )]
-    // SAFETY: `Grey` and `Colors`, the only callers, keep a reference to the array, which numpy does not resize while
+    // SAFETY: `Lent`, and `active_contour` for as long as it runs, keep a reference to the array, which numpy does not resize while
     // it has more than one; the package passes aligned arrays with strides of whole items only
     unsafe {
         array.as_array().raw_view().deref_into_view()
     }
 }
 
-/// An image of one channel.
-struct Grey<T: Sample> {
-    view: ArrayView2<'static, T>,
+/// An array as an image: of two axes one of grey levels, of three one of colors with the channels last: three, or four
+/// of which the last says how opaque a pixel is and is passed over.
+struct Lent<T: Sample, D: Dimension> {
+    view: ArrayView<'static, T, D>,
     _owner: Py<PyAny>,
     /// The level of a pixel of 1.
     unit: f64,
     levels: OnceLock<Grid>,
 }
 
-impl<T: Sample> fmt::Debug for Grey<T> {
+impl<T: Sample, D: Dimension> fmt::Debug for Lent<T, D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:?} pixels of Python", self.view.dim())
+        write!(f, "pixels of Python, {:?}", self.view.shape())
     }
 }
 
@@ -68,7 +69,7 @@ fn finite(level: f64) -> f64 {
     if level.is_finite() { level } else { 0.0 }
 }
 
-impl<T: Sample> Pixels for Grey<T> {
+impl<T: Sample> Pixels for Lent<T, Ix2> {
     fn size(&self) -> (usize, usize) {
         let (height, width) = self.view.dim();
         (width, height)
@@ -88,21 +89,7 @@ impl<T: Sample> Pixels for Grey<T> {
     }
 }
 
-/// An image of three channels or four, of which the last says how opaque a pixel is and is passed over.
-struct Colors<T: Sample> {
-    view: ArrayView3<'static, T>,
-    _owner: Py<PyAny>,
-    unit: f64,
-    levels: OnceLock<Grid>,
-}
-
-impl<T: Sample> fmt::Debug for Colors<T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:?} pixels of Python", self.view.dim())
-    }
-}
-
-impl<T: Sample> Pixels for Colors<T> {
+impl<T: Sample> Pixels for Lent<T, Ix3> {
     fn size(&self) -> (usize, usize) {
         let (height, width, _) = self.view.dim();
         (width, height)
@@ -177,58 +164,33 @@ fn refused((row, column, got): (usize, usize, f64)) -> PyErr {
 }
 
 impl Image {
-    fn grey<T: Sample>(
+    /// None for an array of another kind.
+    fn made<T: Sample, D: Dimension + 'static>(
         array: &Bound<'_, PyAny>,
         unit: f64,
         mask: Option<Array2<bool>>,
-    ) -> PyResult<Option<Self>> {
-        let Ok(read) = array.extract::<PyReadonlyArray2<'_, T>>() else {
+    ) -> PyResult<Option<Self>>
+    where
+        Lent<T, D>: Pixels,
+    {
+        let Ok(read) = array.extract::<PyReadonlyArray<'_, T, D>>() else {
             return Ok(None);
         };
         let view = lent(&read);
         let owner = array.clone().unbind();
+        let address = view.as_ptr() as usize;
         // the owner goes along: this thread may be interrupted before the other has read all
         let looked = attended(array.py(), move |_| {
-            (odd(&view, mask.as_ref()), mask, owner)
+            (odd(&view, mask.as_ref()), view, mask, owner)
         })?;
-        let (odd, mask, owner) = looked;
+        let (odd, view, mask, _owner) = looked;
         if let Some(odd) = odd {
             return Err(refused(odd));
         }
-        let address = view.as_ptr() as usize;
         let levels = OnceLock::new();
-        let pixels = Grey {
+        let pixels = Lent {
             view,
-            _owner: owner,
-            unit,
-            levels,
-        };
-        Self::of(snakes::Image::of(Arc::new(pixels)), address, mask).map(Some)
-    }
-
-    fn colors<T: Sample>(
-        array: &Bound<'_, PyAny>,
-        unit: f64,
-        mask: Option<Array2<bool>>,
-    ) -> PyResult<Option<Self>> {
-        let Ok(read) = array.extract::<PyReadonlyArray3<'_, T>>() else {
-            return Ok(None);
-        };
-        let view = lent(&read);
-        let owner = array.clone().unbind();
-        // the owner goes along: this thread may be interrupted before the other has read all
-        let looked = attended(array.py(), move |_| {
-            (odd(&view, mask.as_ref()), mask, owner)
-        })?;
-        let (odd, mask, owner) = looked;
-        if let Some(odd) = odd {
-            return Err(refused(odd));
-        }
-        let address = view.as_ptr() as usize;
-        let levels = OnceLock::new();
-        let pixels = Colors {
-            view,
-            _owner: owner,
+            _owner,
             unit,
             levels,
         };
@@ -256,14 +218,14 @@ impl Image {
     ) -> PyResult<Self> {
         let mask = mask.map(|mask| mask.as_array().to_owned());
         macro_rules! first_of {
-            ($($make:ident: $kind:ty),*) => {
-                $(if let Some(made) = Self::$make::<$kind>(array, unit, mask.clone())? {
+            ($axes:ty: $($kind:ty),*) => {
+                $(if let Some(made) = Self::made::<$kind, $axes>(array, unit, mask.clone())? {
                     return Ok(made);
                 })*
             };
         }
-        first_of!(grey: u8, grey: u16, grey: f32, grey: f64);
-        first_of!(colors: u8, colors: u16, colors: f32, colors: f64);
+        first_of!(Ix2: u8, u16, f32, f64);
+        first_of!(Ix3: u8, u16, f32, f64);
         Err(PyTypeError::new_err(
             "image must be an array of uint8, uint16, float32 or float64 with 2 or 3 axes",
         ))

@@ -13,6 +13,7 @@ mod motion;
 mod options;
 mod points;
 mod scenes;
+mod tables;
 mod tracking;
 mod waiting;
 
@@ -27,6 +28,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<images::Image>()?;
     module.add_class::<fitting::Prepared>()?;
     module.add_class::<fitting::Batch>()?;
+    module.add_class::<tables::Store>()?;
     module.add_class::<tracking::Tracker>()?;
     module.add_class::<scenes::Scene>()?;
     module.add_class::<motion::Simulation>()?;
@@ -45,6 +47,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
         wrap_pyfunction!(scenes::picture, module)?,
         wrap_pyfunction!(scenes::contour, module)?,
         wrap_pyfunction!(scenes::load_picture, module)?,
+        wrap_pyfunction!(tables::image_name, module)?,
         wrap_pyfunction!(waiting::fail_on_purpose, module)?,
         wrap_pyfunction!(waiting::sleep, module)?,
     ] {

@@ -198,6 +198,7 @@ image = 128 + 60 * np.sin(np.arange(700)[:, None] * 0.11) * np.sin(np.arange(700
 starts = [pysnakes.circle(350, 350, 100 + i % 50) for i in range(100000)]
 work = {
     "one": lambda: _core._sleep(60.0),
+    "search": lambda: [pysnakes.fit(image, (350.0, 350.0)) for _ in range(10**6)],
     "many": lambda: list(pysnakes.fit_many(image, starts, threads=2)),
     "scene": lambda: pysnakes.Scene.load("soft-ball").with_values(
         run__steps=200_000_000, record__every=100_000_000).run(),
@@ -212,7 +213,7 @@ except KeyboardInterrupt:
 """
 
 
-@pytest.mark.parametrize("work", ["one", "many", "scene", "classic"])
+@pytest.mark.parametrize("work", ["one", "search", "many", "scene", "classic"])
 def test_ctrl_c_stops_work(work):
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     child = subprocess.Popen([sys.executable, "-c", STOPPED, work], **pipes)

@@ -77,6 +77,15 @@ def test_lists_and_whatever_has_an_array_are_converted(bright):
     assert pysnakes.fit(bright.tolist(), START.tolist()) == pysnakes.fit(bright, START)
     assert pysnakes.fit(Tensor(), START) == pysnakes.fit(bright, START)
 
+    class Learning:
+        """As torch's that need a gradient."""
+
+        def __array__(self, dtype=None, copy=None):
+            raise RuntimeError("Can't call numpy() on Tensor that requires grad. Use tensor.detach().numpy() instead.")
+
+    with pytest.raises(TypeError, match="image must be .* got Learning: .*detach"):
+        pysnakes.fit(Learning(), START)
+
 
 def test_unaligned_arrays_are_copied(bright):
     record = np.zeros(bright.shape, dtype=[("a", "u1"), ("b", "f8")])
@@ -98,6 +107,7 @@ def test_masked_pixels_do_not_count(bright):
 ODD = {
     "one axis": (np.zeros(5), ValueError, "shape"),
     "four axes": (np.zeros((2, 2, 2, 2)), ValueError, "shape"),
+    "channels first": (np.zeros((3, 9, 20)), ValueError, "moveaxis"),
     "two channels": (np.zeros((9, 9, 2)), ValueError, "channels"),
     "empty": (np.zeros((0, 9)), ValueError, "at least one pixel"),
     "complex": (np.zeros((9, 9), complex), TypeError, "real numbers"),

@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use crate::along::Polygon;
 use crate::evidence::{Support, on_edge, support};
-use crate::find::{Found, Search, Searched};
+use crate::find::{Asked, Found, Search, Searched, Stopped, go_on};
 use crate::flood::{flood, purity};
 use crate::near::Tethered;
 use crate::rules::Rules;
@@ -70,7 +70,12 @@ struct Choice<'a> {
 }
 
 /// The searches about a start and within it. None for a start without area.
-pub(crate) fn about(pixels: &dyn Pixels, start: &Polygon, rules: &Rules) -> Option<Searched> {
+pub(crate) fn about(
+    pixels: &dyn Pixels,
+    start: &Polygon,
+    rules: &Rules,
+    asked: Asked<'_>,
+) -> Result<Option<Searched>, Stopped> {
     let view = View::new(pixels, start, rules);
     let mut choice = Choice {
         view: &view,
@@ -79,7 +84,11 @@ pub(crate) fn about(pixels: &dyn Pixels, start: &Polygon, rules: &Rules) -> Opti
         found: Vec::new(),
         taken: 0,
     };
-    choice.beside()?;
+    go_on(asked)?;
+    if choice.beside().is_none() {
+        return Ok(None);
+    }
+    go_on(asked)?;
     let own = choice.own();
     // beside the start there is already a closed edge, or one of a single polarity: stay. A curve that the band does
     // not hold is not one beside the start.
@@ -91,13 +100,16 @@ pub(crate) fn about(pixels: &dyn Pixels, start: &Polygon, rules: &Rules) -> Opti
     // a part without an edge, though the rest has a strong one, may be cut off from the object by a corner of the start
     let cornered = enough && own.edge < own.closed - SLACK;
     if choice.taken == 0 && (!enough || cornered) {
+        go_on(asked)?;
         choice.along_rays(enough);
     }
+    go_on(asked)?;
     choice.region();
+    go_on(asked)?;
     choice.close();
     choice.last();
     let Choice { found, taken, .. } = choice;
-    Some(Searched::of(view, found, taken))
+    Ok(Some(Searched::of(view, found, taken)))
 }
 
 impl Choice<'_> {

@@ -4,7 +4,7 @@ use field::Pixels;
 use glam::DVec2;
 
 use crate::along::Polygon;
-use crate::find::{Searched, find};
+use crate::find::{Searched, Stopped, find_unless};
 use crate::rules::Rules;
 
 /// The smallest radius that is tried, and how each is larger than the last. Pixels.
@@ -42,10 +42,26 @@ const ACROSS: u32 = 48;
 /// The same is done from places beside it within that outline: [`Searched::steady`] says how far they agree.
 #[must_use]
 pub fn find_around(pixels: &dyn Pixels, place: DVec2, rules: &Rules) -> Option<Searched> {
+    find_around_unless(pixels, place, rules, &|| false)
+        .ok()
+        .flatten()
+}
+
+/// [`find_around`] that ends early when `asked` says so, as [`find_unless`] does.
+///
+/// # Errors
+///
+/// [`Stopped`] where `asked` has said yes.
+pub fn find_around_unless(
+    pixels: &dyn Pixels,
+    place: DVec2,
+    rules: &Rules,
+    asked: &dyn Fn() -> bool,
+) -> Result<Option<Searched>, Stopped> {
     let (width, height) = pixels.size();
     let size = DVec2::new(width as f64, height as f64);
     if !(place + 0.5).cmpge(DVec2::ZERO).all() || !(place + 0.5).cmple(size).all() {
-        return None;
+        return Ok(None);
     }
     // a small window within an object takes its texture for edges, and any region in it has some
     let rules = &Rules {
@@ -53,7 +69,14 @@ pub fn find_around(pixels: &dyn Pixels, place: DVec2, rules: &Rules) -> Option<S
         ..*rules
     };
     let largest = LARGEST * size.min_element().max(2.0 * SMALLEST);
-    let mut best = best_of(pixels, place, rules, (0.0, largest))?;
+    let about = |place, sizes| {
+        best_of(place, sizes, &|start| {
+            find_unless(pixels, start, rules, asked)
+        })
+    };
+    let Some(mut best) = about(place, (0.0, largest))? else {
+        return Ok(None);
+    };
     let outline = Polygon {
         points: best.taken().points.clone(),
         closed: true,
@@ -69,24 +92,23 @@ pub fn find_around(pixels: &dyn Pixels, place: DVec2, rules: &Rules) -> Option<S
             && (*p + 0.5).cmpge(DVec2::ZERO).all()
             && (*p + 0.5).cmple(size).all()
     };
-    let overlaps: Vec<f64> = places
-        .filter(is_in)
-        .filter_map(|p| best_of(pixels, p, rules, sizes))
-        .map(|other| overlap(&own, &other.taken().points))
-        .collect();
+    let mut overlaps = Vec::new();
+    for beside in places.filter(is_in) {
+        let other = about(beside, sizes)?;
+        overlaps.extend(other.map(|other| overlap(&own, &other.taken().points)));
+    }
     if !overlaps.is_empty() {
         best.steady = Some(overlaps.iter().sum::<f64>() / overlaps.len() as f64);
     }
-    Some(best)
+    Ok(Some(best))
 }
 
 /// The best outline about a place from circles of radii from one to another.
 fn best_of(
-    pixels: &dyn Pixels,
     place: DVec2,
-    rules: &Rules,
     (least, most): (f64, f64),
-) -> Option<Searched> {
+    search: &dyn Fn(&Polygon) -> Result<Option<Searched>, Stopped>,
+) -> Result<Option<Searched>, Stopped> {
     // with their areas and the radii of the circles
     let mut found: Vec<(Searched, f64, f64)> = Vec::new();
     let mut radius = SMALLEST;
@@ -99,7 +121,7 @@ fn best_of(
                 closed: true,
             };
             // an outline that leaves the place out is that of something else
-            let one = find(pixels, &start, rules)
+            let one = search(&start)?
                 .filter(|one| outline::winding(&one.taken().points, place) != Some(0));
             found.extend(one.map(|one| {
                 let outline = Polygon {
@@ -120,8 +142,8 @@ fn best_of(
     let values: Vec<f64> = found.iter().map(worth).collect();
     let first = (0..values.len())
         .rev()
-        .max_by(|a, b| values[*a].total_cmp(&values[*b]))?;
-    Some(found.swap_remove(first).0)
+        .max_by(|a, b| values[*a].total_cmp(&values[*b]));
+    Ok(first.map(|first| found.swap_remove(first).0))
 }
 
 /// How much two outlines have in common of what both enclose, by points of a grid.

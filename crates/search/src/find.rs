@@ -110,17 +110,46 @@ const FAINT: f64 = 1.0;
 /// An edge is of no polarity where the mean of its directions is less than this share of its strength.
 const NO_POLARITY: f64 = 0.5;
 
+/// A search was asked to end before it had an answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stopped;
+
+/// Whether a search is asked to end: looked at between its stages, each of which takes some milliseconds.
+pub(crate) type Asked<'a> = &'a dyn Fn() -> bool;
+
+/// Go on unless an end is asked for.
+pub(crate) fn go_on(asked: Asked<'_>) -> Result<(), Stopped> {
+    if asked() { Err(Stopped) } else { Ok(()) }
+}
+
 /// Look for an outline about a start, open or closed. None for a start without area or length.
 #[must_use]
 pub fn find(pixels: &dyn Pixels, start: &Polygon, rules: &Rules) -> Option<Searched> {
+    find_unless(pixels, start, rules, &|| false).ok().flatten()
+}
+
+/// [`find`] that ends early when `asked` says so: it is looked at between the stages of the search.
+///
+/// # Errors
+///
+/// [`Stopped`] where `asked` has said yes.
+pub fn find_unless(
+    pixels: &dyn Pixels,
+    start: &Polygon,
+    rules: &Rules,
+    asked: &dyn Fn() -> bool,
+) -> Result<Option<Searched>, Stopped> {
+    go_on(asked)?;
     let start = start.clone().outwards();
     if !start.closed {
-        return find_line(pixels, &start, rules);
+        return Ok(find_line(pixels, &start, rules));
     }
     if start.area().partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
-        return None;
+        return Ok(None);
     }
-    let first = about(pixels, &start, rules)?;
+    let Some(first) = about(pixels, &start, rules, asked)? else {
+        return Ok(None);
+    };
     let own = first.taken().support;
     let seen = &first.seen;
     let some = own.closed > rules.unsure
@@ -129,10 +158,10 @@ pub fn find(pixels: &dyn Pixels, start: &Polygon, rules: &Rules) -> Option<Searc
     // a start that looks as what is around it may lie wholly inside
     let faint = seen.contrast < FAINT;
     if !own.is_slope() && ((own.closed > rules.sure && !faint) || some) {
-        return Some(first);
+        return Ok(Some(first));
     }
     // nothing at the start or within: it may lie inside
-    let second = around(pixels, &start, rules)
+    let outer = around(pixels, &start, rules)
         .map(|points| {
             Polygon {
                 points,
@@ -140,17 +169,20 @@ pub fn find(pixels: &dyn Pixels, start: &Polygon, rules: &Rules) -> Option<Searc
             }
             .outwards()
         })
-        .filter(|around| around.area() > start.area())
-        .and_then(|around| about(pixels, &around, rules));
+        .filter(|around| around.area() > start.area());
+    let second = match outer {
+        Some(around) => about(pixels, &around, rules, asked)?,
+        None => None,
+    };
     let better = second.filter(|second| {
         let other = second.taken().support;
         let better = own.is_slope() || other.closed > own.closed + MUCH_BETTER;
         is_outline(&other, rules) && !other.is_slope() && better
     });
-    Some(better.map_or(first, |second| Searched {
+    Ok(Some(better.map_or(first, |second| Searched {
         around: true,
         ..second
-    }))
+    })))
 }
 
 /// Whether a curve is surely an outline by its edge alone.

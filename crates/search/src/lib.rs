@@ -43,9 +43,9 @@ mod walk;
 pub mod whole;
 mod within;
 
-pub use click::find_around;
+pub use click::{find_around, find_around_unless};
 pub use evidence::{SLOPE, Support};
-pub use find::{Found, Search, Searched, find};
+pub use find::{Found, Search, Searched, Stopped, find, find_unless};
 pub use lab::lab;
 pub use rules::{Rules, Sign};
 pub use view::Seen;

@@ -3,7 +3,9 @@
 use field::Grid;
 use glam::DVec2;
 use search::along::Polygon;
-use search::{Rules, Search, find, find_around};
+use search::{
+    Rules, Search, Searched, Stopped, find, find_around, find_around_unless, find_unless,
+};
 
 const CENTER: DVec2 = DVec2::new(70.3, 64.8);
 const RADIUS: f64 = 30.0;
@@ -201,4 +203,37 @@ fn a_picture_that_is_turned_has_the_same_outline() {
             assert!(apart < 1e-6, "{apart}");
         }
     }
+}
+
+/// How often a search is asked whether to end; at each of these it does.
+fn looks(search: impl Fn(&dyn Fn() -> bool) -> Result<Option<Searched>, Stopped>) -> usize {
+    for last in 0.. {
+        let count = std::cell::Cell::new(0);
+        let answer = search(&|| {
+            count.set(count.get() + 1);
+            count.get() > last
+        });
+        match answer {
+            Err(Stopped) => assert_eq!(
+                count.get(),
+                last + 1,
+                "it goes on after it was asked to end"
+            ),
+            Ok(found) => {
+                assert!(found.is_some());
+                return last;
+            }
+        }
+    }
+    0
+}
+
+#[test]
+fn a_search_ends_where_it_is_asked_to() {
+    let (picture, rules) = (picture(|v| v), Rules::default());
+    let start = circle(CENTER + DVec2::new(3.0, 2.0), 1.6 * RADIUS);
+    let one = looks(|asked| find_unless(&picture, &start, &rules, asked));
+    assert!(one >= 5, "{one}");
+    let click = looks(|asked| find_around_unless(&picture, CENTER, &rules, asked));
+    assert!(click >= 5 * one, "{click}");
 }

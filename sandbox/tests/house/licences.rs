@@ -1,4 +1,4 @@
-//! What comes from outside, as cargo knows it: licences, and crates in more than one version.
+//! What comes from outside, as cargo knows it: licences, crates in more than one version, features.
 //!
 //! Only what is built on this machine is looked at; what another system needs besides, a gate there
 //! would see.
@@ -11,7 +11,12 @@ use std::process::Command;
 const FREE: [&str; 4] = ["MIT", "Apache-2.0", "Zlib", "BSD-2-Clause"];
 
 /// Crates whose licence asks for something besides, and why that is fine.
-const ASKED: [(&str, &str, &str); 3] = [
+const ASKED: [(&str, &str, &str); 4] = [
+    (
+        "snap",
+        "BSD-3-Clause",
+        "the terms ask for their notice, which it ships, and forbid its name in praise",
+    ),
     (
         "unicode-ident",
         "(MIT OR Apache-2.0) AND Unicode-3.0",
@@ -184,4 +189,41 @@ fn no_crate_is_built_in_two_versions_without_a_reason() {
             "{name} is built once now: take it off the list"
         );
     }
+}
+
+/// Crates with their features, as these packages have them when they are built.
+#[cfg(unix)]
+fn features(packages: &[&str]) -> BTreeSet<String> {
+    let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml");
+    let fixed = [
+        "tree",
+        "--locked",
+        "--offline",
+        "--prefix=none",
+        "--format={p} [{f}]",
+    ];
+    let run = Command::new(std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned()))
+        .args(fixed)
+        .args(["--manifest-path", manifest])
+        .args(packages)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert!(run.status.success(), "{packages:?}: {said}");
+    let lines = String::from_utf8(run.stdout).unwrap();
+    let plain = |line: &str| line.trim_end_matches(" (*)").to_owned();
+    lines.lines().map(plain).collect()
+}
+
+#[cfg(unix)]
+#[test]
+fn the_wheel_asks_for_the_features_that_a_build_of_all_has() {
+    let all = features(&["--workspace", "--exclude=peers", "--edges=normal,build,dev"]);
+    let wheel = features(&["--package=snakes-py", "--edges=normal"]);
+    let other: Vec<&String> = wheel.difference(&all).collect();
+    assert!(
+        other.is_empty(),
+        "with other features than in a build of all, so the wheel compiles them, and what needs them, anew; ask for the \
+         same in crates/py/Cargo.toml: {other:#?}"
+    );
 }

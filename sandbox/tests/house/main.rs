@@ -14,7 +14,7 @@ mod sizes;
 mod words;
 
 /// Own packages, without the prefix `snakes-`, and their floor: an arrow may only point to a lower one.
-const FLOORS: [(&str, u32); 25] = [
+const FLOORS: [(&str, u32); 26] = [
     ("lanes", 0),
     ("banded", 0),
     ("field", 1),
@@ -27,6 +27,7 @@ const FLOORS: [(&str, u32); 25] = [
     ("score", 2),
     ("search", 2),
     ("io", 2),       // files, and the fields of a picture
+    ("store", 3),    // many files as one table
     ("subpixel", 3), // the last stage of a search
     ("instances", 4),
     ("fit", 5),
@@ -43,7 +44,7 @@ const FLOORS: [(&str, u32); 25] = [
 ];
 
 /// Outside crates and who may open the door to them. `*` is everybody, `test` everybody's tests.
-const DOORS: [(&str, &[&str]); 38] = [
+const DOORS: [(&str, &[&str]); 44] = [
     ("glam", &["*"]),
     ("thiserror", &["*"]),
     (
@@ -80,6 +81,8 @@ const DOORS: [(&str, &[&str]); 38] = [
     ("roxmltree", &["io"]),
     ("svgtypes", &["io"]),
     ("zip", &["io"]),
+    ("parquet", &["store"]),
+    ("sha2", &["store"]),
     ("strsim", &["scene"]),
     ("tempfile", &["io", "test"]),
     ("clap", &["cli", "sandbox"]),
@@ -90,10 +93,14 @@ const DOORS: [(&str, &[&str]); 38] = [
     ("base64", &["live"]),
     ("axum", &["cli"]),
     ("tokio", &["cli"]),
-    ("getrandom", &["cli"]),
+    ("getrandom", &["cli", "py"]),
     ("open", &["cli"]),
     ("tungstenite", &["cli: test"]),
-    ("rustix", &["cli"]),
+    ("rustix", &["cli", "py"]),
+    ("bytes", &["py"]), // the next ones for their features only
+    ("getrandom-older", &["py"]),
+    ("libc", &["py"]),
+    ("serde_core", &["py"]),
     ("plotters", &["sandbox"]),
     ("gif", &["io", "sandbox"]),
     ("glob", &["cli"]),

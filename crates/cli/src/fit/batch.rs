@@ -9,6 +9,7 @@ use io::Claims;
 use scene::SceneError;
 use scene::fit::{Options, in_order};
 use serde_json::json;
+use store::Results;
 
 use super::flags::Flags;
 use super::former::{Former, unsure};
@@ -20,6 +21,7 @@ use super::results::{Wanted, of_folder, write};
 use super::said::counted;
 use super::sheet::{Place, Rest, Sheet};
 use super::start::stem;
+use super::table;
 use crate::args::Words;
 use crate::commands::{Answer, code, key};
 use crate::output::put_bytes;
@@ -121,6 +123,7 @@ pub(super) fn many(flags: &Flags, images: &[PathBuf], words: Words) -> Answer {
     }
     let former = Former::of(flags)?;
     io::ready_folder(folder)?;
+    let table = table::of(flags, folder)?;
     apart(flags, folder, &pictures)?;
     let jobs = plan(flags, folder, &pictures)?;
     if let Some(path) = flags.measure.as_ref().filter(|_| words.json)
@@ -134,11 +137,17 @@ pub(super) fn many(flags: &Flags, images: &[PathBuf], words: Words) -> Answer {
         .jobs
         .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get));
     let bar = bar(jobs.len(), words);
+    let asked = Asked {
+        options: &options,
+        sheet: sheet.as_ref(),
+        former: &former,
+        table: table.as_ref(),
+    };
     let mut tally = Tally::default();
     in_order(
         &jobs,
         threads,
-        |job| done(job, flags, &options, sheet.as_ref(), &former, &stop),
+        |job| done(job, flags, &asked, &stop),
         |index, done| {
             bar.inc(1);
             for text in tally.count(&jobs[index].input.name, done) {
@@ -210,7 +219,7 @@ fn said(tally: &Tally, pictures: usize, words: Words) -> Result<(), SceneError> 
 
 /// Refuse to write pictures where pictures are looked for: the next run would take them for its own.
 fn apart(flags: &Flags, folder: &Path, pictures: &[Input]) -> Result<(), SceneError> {
-    if !of_folder(flags, folder, "picture")?
+    if !of_folder(flags, folder, "picture".as_ref())?
         .iter()
         .any(Wanted::is_picture)
     {
@@ -258,7 +267,7 @@ fn plan(flags: &Flags, folder: &Path, pictures: &[Input]) -> Result<Vec<Job>, Sc
     }
     let mut jobs = Vec::new();
     for input in pictures {
-        let wanted = of_folder(flags, folder, &stem(&input.name))?;
+        let wanted = of_folder(flags, folder, &input.name)?;
         for one in &wanted {
             if flags.no_clobber && !flags.resume && one.path().exists() {
                 let message = format!(
@@ -287,23 +296,57 @@ fn plan(flags: &Flags, folder: &Path, pictures: &[Input]) -> Result<Vec<Job>, Sc
     Ok(jobs)
 }
 
+/// What is asked of every picture.
+struct Asked<'a> {
+    options: &'a Options,
+    sheet: Option<&'a Sheet>,
+    former: &'a Former,
+    table: Option<&'a Results>,
+}
+
+impl Asked<'_> {
+    /// Whether a result is there; rows of a table may be in a file that was joined.
+    fn is_there(&self, wanted: &Wanted, image: &str) -> bool {
+        let joined = |table: &Results| table.is_finished(image);
+        match wanted {
+            Wanted::Table(_) => self.table.is_some_and(joined),
+            other => other.path().exists(),
+        }
+    }
+
+    /// How many outlines of a result that is there are marked unsure.
+    fn doubted(&self, wanted: &Wanted, image: &str) -> Result<usize, SceneError> {
+        match (wanted, self.table) {
+            (Wanted::Table(_), Some(table)) => {
+                let doubtful = table.doubtful(image).map_err(|e| table::refused(&e))?;
+                Ok(doubtful.unwrap_or(0))
+            }
+            (other, _) => Ok(unsure(other)),
+        }
+    }
+}
+
 /// The work on one picture.
-fn done(
-    job: &Job,
-    flags: &Flags,
-    options: &Options,
-    sheet: Option<&Sheet>,
-    former: &Former,
-    stop: &Stop,
-) -> Done {
-    if flags.resume && job.wanted.iter().all(|wanted| wanted.path().exists()) {
-        let rows = former.rows(&called(&job.input.name));
+fn done(job: &Job, flags: &Flags, asked: &Asked<'_>, stop: &Stop) -> Done {
+    let image = store::name_of(&job.input.name);
+    if flags.resume
+        && job
+            .wanted
+            .iter()
+            .all(|wanted| asked.is_there(wanted, &image))
+    {
+        let rows = asked.former.rows(&called(&job.input.name));
         // without its rows the table would lack it
         if rows.is_some() || flags.measure.is_none() {
-            let (rows, doubted) = rows.unwrap_or_default();
-            let marked = job.wanted.iter().map(unsure);
+            let (rows, mut most) = rows.unwrap_or_default();
+            for wanted in &job.wanted {
+                match asked.doubted(wanted, &image) {
+                    Ok(doubted) => most = most.max(doubted),
+                    Err(error) => return Done::Refused(error.to_string()),
+                }
+            }
             return Done::There {
-                unsure: marked.fold(doubted, usize::max),
+                unsure: most,
                 rows: rows.to_owned(),
             };
         }
@@ -311,7 +354,7 @@ fn done(
     if stop.asked() {
         return Done::Stopped;
     }
-    match attempt(job, flags, options, sheet) {
+    match attempt(job, flags, asked) {
         Ok(done) => done,
         Err(error) => {
             // the name of the picture is said before it
@@ -324,29 +367,41 @@ fn done(
     }
 }
 
-fn attempt(
-    job: &Job,
-    flags: &Flags,
-    options: &Options,
-    sheet: Option<&Sheet>,
-) -> Result<Done, SceneError> {
+fn attempt(job: &Job, flags: &Flags, asked: &Asked<'_>) -> Result<Done, SceneError> {
     let quiet = Words {
         quiet: true,
         verbose: false,
         json: false,
     };
-    let picture = Arc::new(picture(&job.input.image, job.input.page, flags)?);
-    let (flags, mut notes) = (&flags.about(&picture, &job.input.name), Vec::new());
-    // a picture that is begun is finished: there is no half of a result
-    let found = all(
-        &picture,
-        &job.input.name,
-        options,
-        flags,
-        &Stop::default(),
-        quiet,
-        &mut |note| notes.push(note.to_owned()),
-    )?;
+    let mut notes = Vec::new();
+    let mut looked = || -> Result<_, SceneError> {
+        let picture = Arc::new(picture(&job.input.image, job.input.page, flags)?);
+        let flags = flags.about(&picture, &job.input.name);
+        // a picture that is begun is finished: there is no half of a result
+        let found = all(
+            &picture,
+            &job.input.name,
+            asked.options,
+            &flags,
+            &Stop::default(),
+            quiet,
+            &mut |note| notes.push(note.to_owned()),
+        )?;
+        Ok((picture, flags, found))
+    };
+    let (picture, flags, found) = match looked() {
+        Ok(found) => found,
+        Err(error) => {
+            // a row of the table says so, and it is not tried again
+            if let Some(table) = asked.table {
+                let image = store::name_of(&job.input.name);
+                let why = error.to_string();
+                table.refuse(&image, &why).map_err(|e| table::refused(&e))?;
+            }
+            return Err(error);
+        }
+    };
+    let flags = &flags;
     for wanted in &job.wanted {
         write(wanted, &picture, &job.input.name, &found, flags)?;
     }
@@ -355,7 +410,7 @@ fn attempt(
     } else {
         String::new()
     };
-    let place = match sheet {
+    let place = match asked.sheet {
         Some(sheet) => Some(sheet.keep(&picture, &job.input.name, &found)?),
         None => None,
     };

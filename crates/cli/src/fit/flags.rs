@@ -20,6 +20,7 @@ Examples:
   snake fit nuclei.png --seeds auto -o labels.tif --measure table.csv --overlay seen.png
   snake fit 'cells/*.tif' --from starts/{stem}.csv --out-dir found --sheet found.html
   snake fit frames/ --from starts/{stem}.csv --out-dir found --as geojson,mask
+  snake fit plates/ --seeds auto --out-dir found --as parquet --resume
 
 Exit code 0: found. 1: unsure, not at rest, stopped, or a picture of many failed. 2: refused, and why.";
 
@@ -49,8 +50,9 @@ pub(crate) struct Flags {
     /// Write the outlines of each picture to this folder, as STEM.csv and so on.
     #[arg(long, value_name = "DIR")]
     pub out_dir: Option<PathBuf>,
-    /// Formats to write: csv, geojson, coco, imagej, svg, labelme, mask, labels, deep-labels, and of --out-dir overlay
-    /// and animation; of --out one, of --out-dir several with commas between them.
+    /// Formats to write: csv, geojson, coco, imagej, svg, labelme, mask, labels, deep-labels, and of --out-dir overlay,
+    /// animation, and parquet (a file for each picture, together one table for pandas, `DuckDB`, QGIS and `pysnakes`); of
+    /// --out one, of --out-dir several with commas between them.
     #[arg(long = "as", value_name = "FORMATS", value_delimiter = ',')]
     pub formats: Vec<String>,
     /// Write a table with a row for each outline: area, perimeter, axes, grey inside and outside, how sure it is.

@@ -127,7 +127,7 @@ pub(super) fn unsure(wanted: &Wanted) -> usize {
     };
     match format {
         Format::Csv => marked(path),
-        Format::GeoJson | Format::Coco | Format::Labelme | Format::ImageJ => {
+        Format::GeoJson | Format::Coco | Format::Labelme | Format::ImageJ | Format::Roi => {
             let reading = Reading {
                 format: Some(*format),
                 ..Reading::default()

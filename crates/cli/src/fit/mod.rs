@@ -15,6 +15,7 @@ mod said;
 mod seeds;
 mod sheet;
 mod start;
+mod table;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

@@ -203,7 +203,10 @@ fn outlines(
         let mut moments = None;
         let (begun, fit) = match options.method {
             Method::Search => {
-                let found = prepared.fit(&curve).map_err(|e| which(by_flag(&e)))?;
+                let found = prepared.fit_unless(&curve, &|| stop.asked());
+                let Some(found) = found.map_err(|e| which(by_flag(&e)))? else {
+                    break;
+                };
                 (curve.points.clone(), found)
             }
             Method::Motion => {

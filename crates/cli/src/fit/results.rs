@@ -12,6 +12,8 @@ use super::film::film;
 use super::flags::Flags;
 use super::one::Found;
 use super::overlay::overlay;
+use super::start::stem;
+use super::table;
 use crate::commands::key;
 
 /// The name of the format that is a picture with the outlines over it.
@@ -29,6 +31,8 @@ pub(super) enum Wanted {
     Overlay(PathBuf),
     /// How they were found.
     Animation(PathBuf),
+    /// Outlines as a part of a table of many pictures.
+    Table(PathBuf),
 }
 
 impl Wanted {
@@ -37,14 +41,17 @@ impl Wanted {
         let format = match self {
             Self::Outlines(format, _) => *format,
             Self::Overlay(_) => return true,
-            Self::Animation(_) => return false,
+            Self::Animation(_) | Self::Table(_) => return false,
         };
         matches!(format, Format::Mask | Format::Labels | Format::DeepLabels)
     }
 
     pub(super) fn path(&self) -> &Path {
         match self {
-            Self::Outlines(_, path) | Self::Overlay(path) | Self::Animation(path) => path,
+            Self::Outlines(_, path)
+            | Self::Overlay(path)
+            | Self::Animation(path)
+            | Self::Table(path) => path,
         }
     }
 }
@@ -54,13 +61,21 @@ pub(super) fn of_files(flags: &Flags) -> Result<Vec<(&'static str, Wanted)>, Sce
     let out = flags.out.clone().unwrap_or_else(|| PathBuf::from("-"));
     let format = match &flags.formats[..] {
         [] => Format::by_ending(&out).unwrap_or(Format::Csv),
+        [name] if name == table::FORMAT => {
+            let message = "parquet is a table of many pictures in a folder; needed: --out-dir";
+            return Err(key("--as", message));
+        }
         [name] if name == OVERLAY || name == ANIMATION => {
             let message = format!(
                 "{name} is for --out-dir; needed beside --out: --{name} with the name of a file"
             );
             return Err(key("--as", message));
         }
-        [name] => named(name, "")?,
+        [name] => match named(name, "")? {
+            // by the ending one ROI, not a file of them
+            Format::ImageJ if Format::by_ending(&out) == Some(Format::Roi) => Format::Roi,
+            format => format,
+        },
         list => {
             let message = format!("must be one format for --out, got {}", list.join(","));
             return Err(key("--as", message));
@@ -105,8 +120,9 @@ fn ends(flag: &str, path: &Path, ending: &str) -> Result<(), SceneError> {
 pub(super) fn of_folder(
     flags: &Flags,
     folder: &Path,
-    stem: &str,
+    picture: &Path,
 ) -> Result<Vec<Wanted>, SceneError> {
+    let stem = stem(picture);
     let usual = ["csv".to_owned()];
     let names = if flags.formats.is_empty() {
         &usual[..]
@@ -125,7 +141,11 @@ pub(super) fn of_folder(
         if name == ANIMATION {
             return Ok(Wanted::Animation(folder.join(format!("{stem}.gif"))));
         }
-        let format = named(name, ", overlay, animation")?;
+        if name == table::FORMAT {
+            let part = store::part_name(&store::name_of(picture));
+            return Ok(Wanted::Table(folder.join(part)));
+        }
+        let format = named(name, ", overlay, animation, parquet")?;
         Ok(Wanted::Outlines(
             format,
             folder.join(format!("{stem}{}", ending(format))),
@@ -150,6 +170,7 @@ const fn ending(format: Format) -> &'static str {
         Format::GeoJson => ".geojson",
         Format::Coco => "_coco.json",
         Format::ImageJ => ".zip",
+        Format::Roi => ".roi",
         Format::Svg => ".svg",
         Format::Labelme => "_labelme.json",
         Format::Mask => "_mask.png",
@@ -222,6 +243,7 @@ pub(super) fn write(
         Wanted::Outlines(format, _) => outlines(*format, picture, name, found, flags.evidence)?,
         Wanted::Overlay(_) => paint::png(&overlay(picture, found, flags))?,
         Wanted::Animation(_) => film(picture, found)?,
+        Wanted::Table(_) => table::part(name, found)?,
     };
     if is_standard(wanted.path()) {
         return Ok(Some(bytes));

@@ -18,8 +18,10 @@ pub enum Format {
     GeoJson,
     /// COCO JSON; corner. Polygons, or runs of pixels, whose outline goes along their sides.
     Coco,
-    /// `ImageJ` ROI, or a ZIP of them; areas from the corner, lines and points from the center.
+    /// A ZIP of `ImageJ` ROIs, or one by itself on reading; areas from the corner, lines and points from the center.
     ImageJ,
+    /// One `ImageJ` ROI by itself.
+    Roi,
     /// The shapes of an SVG in its user units; corner.
     Svg,
     /// labelme JSON; corner.
@@ -91,11 +93,12 @@ pub struct Context {
 }
 
 /// Names of formats, as they are asked for.
-const NAMES: [(&str, Format); 11] = [
+const NAMES: [(&str, Format); 12] = [
     ("csv", Format::Csv),
     ("geojson", Format::GeoJson),
     ("coco", Format::Coco),
     ("imagej", Format::ImageJ),
+    ("roi", Format::Roi),
     ("svg", Format::Svg),
     ("labelme", Format::Labelme),
     ("cvat", Format::Cvat),
@@ -111,7 +114,7 @@ const ENDINGS: [(&str, Format); 11] = [
     ("tsv", Format::Csv),
     ("txt", Format::Csv),
     ("geojson", Format::GeoJson),
-    ("roi", Format::ImageJ),
+    ("roi", Format::Roi),
     ("zip", Format::ImageJ),
     ("svg", Format::Svg),
     ("xml", Format::Cvat),
@@ -121,7 +124,7 @@ const ENDINGS: [(&str, Format); 11] = [
 ];
 
 impl Format {
-    /// The format of that name: `csv`, `geojson`, `coco`, `imagej`, `svg`, `labelme`, `cvat`,
+    /// The format of that name: `csv`, `geojson`, `coco`, `imagej`, `roi`, `svg`, `labelme`, `cvat`,
     /// `mask`, `labels`, `deep-labels` or `soft`.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
@@ -224,7 +227,7 @@ pub(super) fn read(bytes: &[u8], reading: &Reading) -> Result<Shapes, IoError> {
         Format::Labelme => labelme::read(&Json::parse(text()?)?, reading),
         Format::Svg => svg::read(text()?, reading),
         Format::Cvat => cvat::read(text()?, reading),
-        Format::ImageJ => imagej::read(bytes, reading),
+        Format::ImageJ | Format::Roi => imagej::read(bytes, reading),
         Format::Mask | Format::Labels | Format::DeepLabels | Format::Soft => {
             raster::read(bytes, reading).map(|(shapes, _)| shapes)
         }
@@ -321,7 +324,7 @@ const fn wanted(format: Format) -> &'static str {
         Format::Labelme => "a labelme JSON",
         Format::Svg => "an SVG",
         Format::Cvat => "an XML of CVAT",
-        Format::ImageJ => "an ImageJ ROI",
+        Format::ImageJ | Format::Roi => "an ImageJ ROI",
         Format::Mask | Format::Labels | Format::DeepLabels | Format::Soft => "a picture",
     }
 }
@@ -370,6 +373,7 @@ pub(super) fn write(
         Format::GeoJson => geojson::write(shapes, context),
         Format::Coco => coco::write(shapes, context),
         Format::ImageJ => imagej::write(shapes),
+        Format::Roi => imagej::write_one(shapes),
         Format::Svg => svg::write(shapes, context),
         Format::Labelme => labelme::write(shapes, context),
         Format::Mask | Format::Labels | Format::DeepLabels => {

@@ -51,11 +51,11 @@ fn files() -> Vec<(Format, Vec<u8>)> {
     }
     files.push((
         Format::ImageJ,
-        write(&whole[..1], Format::ImageJ, &context()).unwrap(),
+        write(&whole[..1], Format::Roi, &context()).unwrap(),
     ));
     files.push((
         Format::ImageJ,
-        write(&holes[..1], Format::ImageJ, &context()).unwrap(),
+        write(&holes[..1], Format::Roi, &context()).unwrap(),
     ));
     let packed = r#"[{"image_id":1,"segmentation":{"size":[40,9],"counts":"PACKED"}}]"#;
     files.push((Format::Coco, packed.replace("PACKED", PACKED).into_bytes()));

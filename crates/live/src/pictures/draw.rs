@@ -166,6 +166,19 @@ impl Pictures {
                 ..One::as_given(points, true)
             };
             piece.measured_as(&one);
+            // the line of the cut lies on no edge
+            for end in [0, part.len() - 1] {
+                if let Some(strength) = piece.strength.get_mut(end) {
+                    *strength = 0.0;
+                }
+                if let Some(error) = piece.error.get_mut(end) {
+                    *error = None;
+                }
+            }
+            let pins = one.pins.iter();
+            piece.pins = pins
+                .filter_map(|pin| part.iter().position(|i| i == pin))
+                .collect();
             made.push(piece);
         }
         let mut pieces = made.into_iter();

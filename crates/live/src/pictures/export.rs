@@ -16,7 +16,7 @@ pub(crate) const FORMATS: [(&str, &str, &str); 12] = [
     (
         "csv",
         ".csv",
-        "CSV: x and y of each node, with error and edge",
+        "CSV: x and y of each node, with error and edge; 0,0 is the middle of the first pixel",
     ),
     ("geojson", ".geojson", "GeoJSON: QuPath, QGIS"),
     ("imagej", ".zip", "ImageJ: ROIs in a ZIP"),
@@ -25,14 +25,18 @@ pub(crate) const FORMATS: [(&str, &str, &str); 12] = [
     ("labelme", "_labelme.json", "labelme"),
     ("mask", "_mask.png", "Mask: white inside"),
     ("labels", "_labels.png", "Labels: a number for each outline"),
-    ("deep-labels", "_labels.tif", "Labels of 16 bits, TIFF"),
+    ("deep-labels", "_labels.tif", "Labels of 32 bits, TIFF"),
     (
         "measures",
         "_measures.csv",
         "Measures: area, perimeter, center, ...",
     ),
     ("overlay", "_overlay.png", "The picture with the outlines"),
-    ("tracks", "_tracks.csv", "Tracks: frame, id, x, y"),
+    (
+        "tracks",
+        "_tracks.csv",
+        "All frames: frame from 0, id, x, y",
+    ),
 ];
 
 impl Pictures {
@@ -46,12 +50,7 @@ impl Pictures {
                 names.join(", ")
             )));
         };
-        let frame = &*self.frames[self.now].name;
-        let stem = Path::new(frame).file_stem();
-        let stem = stem.map_or_else(
-            || "picture".to_owned(),
-            |stem| stem.to_string_lossy().into_owned(),
-        );
+        let stem = stem_of(&self.frames[self.now].name);
         let bytes = match format {
             "measures" => self.measures().into_bytes(),
             "overlay" => self.overlay()?,
@@ -65,6 +64,11 @@ impl Pictures {
             }
         };
         Ok((format!("{stem}{ending}"), bytes))
+    }
+
+    /// What the first frame is called, without the ending.
+    pub(crate) fn name_of_first(&self) -> &str {
+        stem_of(&self.frames[0].name)
     }
 
     /// What formats may say of the picture.
@@ -83,8 +87,14 @@ impl Pictures {
         let shapes = self.outlines.iter().map(|(id, one)| {
             let mut shape = Shape::curve(one.points.clone(), Some(one.closed));
             shape.id = Some(id.to_string());
-            shape.label = Some(one.label.clone());
+            // what programs sort by is the class, where there is one
+            shape.label = Some(if one.class.is_empty() {
+                one.label.clone()
+            } else {
+                one.class.clone()
+            });
             let mut note = |name: &str, value| shape.properties.insert(name.to_owned(), value);
+            note("name", Value::Text(one.label.clone()));
             note("class", Value::Text(one.class.clone()));
             note("sure", Value::Bool(one.sure));
             note("outcome", Value::Text(one.words.clone()));
@@ -183,4 +193,10 @@ impl Pictures {
         }
         out
     }
+}
+
+/// A name without its ending.
+fn stem_of(name: &str) -> &str {
+    let stem = Path::new(name).file_stem().and_then(|stem| stem.to_str());
+    stem.unwrap_or("picture")
 }

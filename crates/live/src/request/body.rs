@@ -89,6 +89,16 @@ pub enum Body {
         #[serde(default)]
         snake: Option<usize>,
     },
+    /// Set mass and damping of a snake, or of all, together: a point of the damping atlas.
+    Plane {
+        /// μ, the mass of a node.
+        mass: f64,
+        /// γ, its damping.
+        damping: f64,
+        /// Number of the snake; None for all.
+        #[serde(default)]
+        snake: Option<usize>,
+    },
     /// Move by another scheme, or by other steps.
     Stepping {
         /// The scheme; None for the one that is used.

@@ -13,6 +13,15 @@ pub(crate) const FORMATS: [(&str, &str, &str); 3] = [
 ];
 
 impl Sandbox {
+    /// What files of it are called.
+    pub(crate) fn name(&self) -> &str {
+        if self.scene.name.is_empty() {
+            "scene"
+        } else {
+            &self.scene.name
+        }
+    }
+
     /// The scene as a file of that format: its name and bytes.
     pub(crate) fn export(&self, format: &str) -> Result<(String, Vec<u8>), LiveError> {
         let Some((name, ending, _)) = FORMATS.iter().find(|(name, _, _)| *name == format) else {
@@ -28,11 +37,7 @@ impl Sandbox {
             }
             None => self.source().as_bytes().to_vec(),
         };
-        let stem = if self.scene.name.is_empty() {
-            "scene"
-        } else {
-            &self.scene.name
-        };
+        let stem = self.name();
         Ok((format!("{stem}{ending}"), bytes))
     }
 

@@ -189,6 +189,13 @@ impl Sandbox {
             } => self.wall(*index, place(*point)?, place(*normal)?),
             Body::NoWall { index } => self.no_wall(*index),
             Body::Set { key, value, snake } => self.set(key, *value, *snake),
+            Body::Plane {
+                mass,
+                damping,
+                snake,
+            } => self
+                .set("mass", *mass, *snake)
+                .and_then(|()| self.set("damping", *damping, *snake)),
             Body::Stepping { scheme, dt } => self.stepping(scheme.as_deref(), *dt),
             Body::Contact { on } => self.contact(*on),
         };

@@ -61,7 +61,7 @@ def load_outlines(path: str | os.PathLike[str]) -> list[Floats]:
     return [points for points, _, _ in _core.load_outlines(os.fspath(path))]
 
 
-_ENDINGS = {".csv": "csv", ".geojson": "geojson", ".json": "geojson", ".roi": "imagej", ".zip": "imagej",
+_ENDINGS = {".csv": "csv", ".geojson": "geojson", ".json": "geojson", ".roi": "roi", ".zip": "imagej",
             ".svg": "svg", ".png": "labels", ".tif": "deep-labels", ".tiff": "deep-labels"}
 
 
@@ -80,7 +80,7 @@ def save_outlines(
         Its ending says the format where `format` does not.
     outlines : iterable
         Outlines, or arrays of points (x, y).
-    format : {"csv", "geojson", "coco", "imagej", "svg", "labelme", "mask", "labels", "deep-labels"}, optional
+    format : {"csv", "geojson", "coco", "imagej", "roi", "svg", "labelme", "mask", "labels", "deep-labels"}, optional
         The format.
     shape : tuple of int, optional
         Rows and columns of the image; that of the first outline if not given.

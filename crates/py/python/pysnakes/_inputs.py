@@ -23,8 +23,10 @@ def array_of(value: ArrayLike, name: str) -> npt.NDArray[Any]:
         raise TypeError(f"{name} must be an array of numbers, got {type(value).__name__}")
     try:
         array = np.asarray(value)
-    except (ValueError, TypeError) as error:
-        raise TypeError(f"{name} must be an array of numbers, got {type(value).__name__}: {error}") from None
+    except (ValueError, TypeError, RuntimeError) as error:
+        # of tensors that are no arrays, as those that need a gradient, theirs says what would do
+        why = (str(error).splitlines() or [""])[0]
+        raise TypeError(f"{name} must be an array of numbers, got {type(value).__name__}: {why}") from None
     if array.dtype.kind not in "buif":
         raise TypeError(f"{name} must be an array of real numbers, got dtype {array.dtype}")
     return array
@@ -73,8 +75,10 @@ def image_of(image: ArrayLike, mask: ArrayLike | None = None, name: str = "image
     if array.ndim == 3 and array.shape[2] == 1:
         array = array[:, :, 0]
     if not (array.ndim == 2 or (array.ndim == 3 and array.shape[2] in (3, 4))):
+        first = array.ndim == 3 and array.shape[0] in (1, 3, 4)
+        hint = f"; channels come last, so pass numpy.moveaxis({name}, 0, -1) if they are first" if first else ""
         raise ValueError(
-            f"{name} must have the shape (rows, columns) or (rows, columns, 3 or 4 channels), got {array.shape}"
+            f"{name} must have the shape (rows, columns) or (rows, columns, 3 or 4 channels), got {array.shape}{hint}"
         )
     if array.size == 0:
         raise ValueError(f"{name} must have at least one pixel, got the shape {array.shape}")

@@ -244,7 +244,7 @@ class Outline:
         -------
         bytes
         """
-        return _core.written([(self.points, self.closed, name)], "imagej", (self.shape[1], self.shape[0]))
+        return _core.written([(self.points, self.closed, name)], "roi", (self.shape[1], self.shape[0]))
 
     def plot(
         self, ax: Axes | None = None, *, image: ArrayLike | None = None, errors: float = 0.0, **line: Any

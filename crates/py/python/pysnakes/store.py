@@ -1,25 +1,25 @@
 """Results of many images as one table: a folder of Parquet files that pandas, DuckDB and QGIS read.
 
 A row is an outline. What an image gave is one file, written whole or not at all, so a run that was killed goes on where
-it was; :meth:`Results.compact` joins such files. The column ``geometry`` makes every file a GeoParquet file. Needs
-pyarrow (``pip install pysnakes[store]``).
+it was; :meth:`Results.compact` joins such files. The column ``geometry`` makes every file a GeoParquet file. The command
+``snake fit --as parquet --out-dir FOLDER --resume`` writes the same files, and each passes over what the other has
+finished. Reading and joining need pyarrow (``pip install pysnakes[store]``), writing does not.
 """
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
-import struct
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from . import _core
 from ._files import load_outlines, read_image
 from ._fit import Prepared
-from ._inputs import ArrayLike
+from ._inputs import ArrayLike, Floats
 from ._outline import Outline
 
 _MEASURES = ("area", "perimeter", "major_axis", "minor_axis", "angle", "circularity", "solidity")
@@ -67,45 +67,36 @@ def schema() -> Any:
         ("closed", pa.bool_()),
         ("nodes", pa.int32()),
         *numbers,
-        ("x", pa.list_(pa.float64())),
-        ("y", pa.list_(pa.float64())),
-        ("error", pa.list_(pa.float32())),
-        ("strength", pa.list_(pa.float32())),
+        *((name, pa.list_(pa.field("element", pa.float64()))) for name in ("x", "y")),
+        *((name, pa.list_(pa.field("element", pa.float32()))) for name in ("error", "strength")),
         ("geometry", pa.binary()),
     ]
     return pa.schema(fields, metadata={"geo": json.dumps(_GEO)})
 
 
-def _wkb(points: np.ndarray[Any, Any], closed: bool) -> bytes:
-    """A polygon or a line as well-known binary."""
-    if closed:
-        points = np.concatenate([points, points[:1]])
-        head = struct.pack("<BIII", 1, 3, 1, len(points))
-    else:
-        head = struct.pack("<BII", 1, 2, len(points))
-    return head + np.ascontiguousarray(points, dtype="<f8").tobytes()
+def _given(outline: Outline) -> tuple[Floats, bool, bool, str, str, list[float], list[float]]:
+    return (
+        outline.points, outline.closed, outline.is_outline, outline.outcome, outline.reason, outline.error.tolist(),
+        outline.strength.tolist(),
+    )
 
 
-def _row(image: str, number: int, outline: Outline) -> dict[str, Any]:
-    row: dict[str, Any] = dict.fromkeys((*_MEASURES, "centroid_x", "centroid_y"))
-    if outline.closed and outline.area > 0.0:
-        measures = outline.measures
-        row |= {name: getattr(measures, name) for name in _MEASURES}
-        row["centroid_x"], row["centroid_y"] = measures.centroid
-    return row | {
-        "image": image,
-        "object": number,
-        "is_outline": outline.is_outline,
-        "outcome": outline.outcome,
-        "reason": outline.reason,
-        "closed": outline.closed,
-        "nodes": len(outline),
-        "x": outline.points[:, 0].tolist(),
-        "y": outline.points[:, 1].tolist(),
-        "error": [None if np.isnan(error) else error for error in outline.error.tolist()],
-        "strength": [None if np.isnan(one) else one for one in outline.strength.tolist()],
-        "geometry": _wkb(outline.points, outline.closed),
-    }
+_JOINED = "joined.parquet"
+_OPEN: dict[tuple[str, int], tuple[tuple[int, int], _core.Store]] = {}
+
+
+def _opened(folder: str) -> _core.Store:
+    """The folder, opened anew by each process, and again when its joined file is another: that is read then."""
+    try:
+        now = os.stat(os.path.join(folder, _JOINED))
+        state = (now.st_mtime_ns, now.st_size)
+    except FileNotFoundError:
+        state = (0, 0)
+    key = (folder, os.getpid())
+    known = _OPEN.get(key)
+    if known is None or known[0] != state:
+        known = _OPEN[key] = (state, _core.Store(folder))
+    return known[1]
 
 
 class Results:
@@ -126,13 +117,13 @@ class Results:
     def __repr__(self) -> str:
         return f"<Results in {str(self.folder)!r}>"
 
-    def _part(self, image: str) -> Path:
-        digest = hashlib.sha256(image.encode()).hexdigest()[:20]
-        return self.folder / f"part-{digest}.parquet"
+    @property
+    def _store(self) -> _core.Store:
+        return _opened(str(self.folder))
 
     def is_finished(self, image: str) -> bool:
-        """Whether what this image gave is there, in a file of its own."""
-        return self._part(image).exists()
+        """Whether what this image gave is there, in a file of its own or in the joined one."""
+        return self._store.is_finished(image)
 
     def finished(self) -> set[str]:
         """Names of all images whose results are there."""
@@ -144,12 +135,11 @@ class Results:
 
     def write(self, image: str, outlines: Iterable[Outline]) -> Path:
         """Write what an image gave; its file is there whole or not at all."""
-        return self._write(image, [_row(image, number, outline) for number, outline in enumerate(outlines)])
+        return Path(self._store.write(image, [_given(outline) for outline in outlines]))
 
     def refuse(self, image: str, reason: str) -> Path:
         """Write that an image was refused, and why, so that it is not tried again."""
-        row = {"image": image, "is_outline": False, "outcome": "refused", "reason": reason}
-        return self._write(image, [row])
+        return Path(self._store.refuse(image, reason))
 
     def collect(self, files: Iterable[str | os.PathLike[str]]) -> int:
         """Take in files of outlines that another program wrote, ``snake fit --out-dir`` among them.
@@ -173,27 +163,9 @@ class Results:
             taken += 1
         return taken
 
-    def _write(self, image: str, rows: list[dict[str, Any]]) -> Path:
-        if not rows:
-            rows = [{"image": image, "is_outline": False, "outcome": "empty", "reason": "no start in this image"}]
-        pa = _pyarrow()
-        path = self._part(image)
-        self._put(pa.Table.from_pylist(rows, schema=schema()), path)
-        return path
-
-    @staticmethod
-    def _put(table: Any, path: Path) -> None:
-        pa = _pyarrow()
-        growing = path.with_name(f".{path.name}.{os.getpid()}")
-        try:
-            pa.parquet.write_table(table, growing, compression="zstd")
-            os.replace(growing, path)
-        finally:
-            growing.unlink(missing_ok=True)
-
     def _files(self) -> Iterator[Path]:
-        # parts of images that a joined file has already are left out by name of the image below
-        yield from sorted(self.folder.glob("joined-*.parquet"))
+        # parts of images that the joined file has already are left out by name of the image below
+        yield from self.folder.glob(_JOINED)
         yield from sorted(self.folder.glob("part-*.parquet"))
 
     def table(self) -> Any:
@@ -212,17 +184,26 @@ class Results:
         return pa.concat_tables(tables).sort_by([("image", "ascending"), ("object", "ascending")])
 
     def compact(self) -> Path:
-        """Join all files into one, which QGIS opens as it is; returns its path.
+        """Join all files into ``joined.parquet``, which QGIS opens as it is; returns its path.
 
         May be done while nothing writes. Killed on the way, nothing is lost and nothing there twice.
         """
-        table, old = self.table(), list(self._files())
-        digest = hashlib.sha256("\n".join(sorted(set(table["image"].to_pylist()))).encode()).hexdigest()[:20]
-        path = self.folder / f"joined-{digest}.parquet"
-        self._put(table, path)
-        for other in old:
-            if other != path:
-                other.unlink()
+        pa = _pyarrow()
+        parts = sorted(self.folder.glob("part-*.parquet"))
+        table, path = self.table(), self.folder / _JOINED
+        growing = path.with_name(f".{path.name}.{os.getpid()}")
+        split = {f"{name}.list.element": "BYTE_STREAM_SPLIT" for name in ("x", "y", "error", "strength")}
+        try:
+            # what the Rust side reads too: no codec that it has not
+            pa.parquet.write_table(
+                table, growing, compression="snappy", use_dictionary=["image", "outcome", "reason"],
+                column_encoding=split, store_schema=False,
+            )
+            os.replace(growing, path)
+        finally:
+            growing.unlink(missing_ok=True)
+        for part in parts:
+            part.unlink()
         return path
 
 
@@ -256,7 +237,7 @@ def fit_file(
     Parameters
     ----------
     path : str or path
-        The file; its name as given is that of the image in the table.
+        The file; as given, it is the name of the image in the table.
     start : array_like, list, dict or callable
         A start as in :func:`pysnakes.fit`, a list of several, a dictionary with the name of the file without its ending
         as key, or a function of the path that gives one of these.
@@ -273,13 +254,14 @@ def fit_file(
         ``image``, ``outlines`` (how many), ``done``: "now", "before", or "refused", the reason of which is in the table.
     """
     path, results = os.fspath(path), Results(store)
-    if results.is_finished(path):
-        return {"image": path, "outlines": 0, "done": "before"}
+    image = _core.image_name(path)
+    if results.is_finished(image):
+        return {"image": image, "outlines": 0, "done": "before"}
     try:
         prepared = Prepared(load(path), **options)
         outlines = [prepared.fit(one) for one in _starts_of(start, path)]
     except (TypeError, ValueError, OSError) as error:
-        results.refuse(path, str(error))
-        return {"image": path, "outlines": 0, "done": "refused"}
-    results.write(path, outlines)
-    return {"image": path, "outlines": len(outlines), "done": "now"}
+        results.refuse(image, str(error))
+        return {"image": image, "outlines": 0, "done": "refused"}
+    results.write(image, outlines)
+    return {"image": image, "outlines": len(outlines), "done": "now"}

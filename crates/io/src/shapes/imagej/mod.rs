@@ -40,15 +40,26 @@ pub(super) fn read(bytes: &[u8], reading: &Reading) -> Result<Shapes, IoError> {
     archive::read(bytes, reading, &mut budget)
 }
 
-/// One outline as a ROI, several as a ZIP of them.
+/// Outlines as a ZIP of ROIs.
 pub(super) fn write(shapes: &[Shape]) -> Result<Vec<u8>, IoError> {
     let refuse = |what: String| cannot("imagej", what);
     let each = (1..).zip(shapes).map(|(number, shape)| {
         roi(shape).map_err(|what| refuse(format!("outline {number} {what}")))
     });
-    let mut files: Vec<Vec<u8>> = each.collect::<Result<_, _>>()?;
-    match &shapes {
-        [_] => Ok(files.remove(0)),
-        _ => archive::write(shapes, &files).map_err(refuse),
+    let files: Vec<Vec<u8>> = each.collect::<Result<_, _>>()?;
+    archive::write(shapes, &files).map_err(refuse)
+}
+
+/// One outline as a ROI.
+pub(super) fn write_one(shapes: &[Shape]) -> Result<Vec<u8>, IoError> {
+    let refuse = |what: String| cannot("roi", what);
+    match shapes {
+        [shape] => roi(shape).map_err(|what| refuse(format!("outline 1 {what}"))),
+        _ => {
+            let got = shapes.len();
+            Err(refuse(format!(
+                "a ROI is one outline, got {got}; a ZIP of them holds several"
+            )))
+        }
     }
 }
