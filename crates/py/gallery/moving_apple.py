@@ -28,14 +28,14 @@ axes.plot(*start.T, "--", color="tab:cyan", linewidth=1)
 axes.plot(*record.last.points.T, color="white", linewidth=2)
 axes.set_title("dashed: drawn; yellow to violet: on its way; white: at rest", fontsize=9)
 # where it has moved
-moved = np.hypot(*(record.last.points - start).T) > 3
+moved = np.hypot(*(record.last.points - start).T) > 12
 low, high = start[moved].min(axis=0) - 30, start[moved].max(axis=0) + 30
 axes.set_xlim(low[0], high[0])
 axes.set_ylim(high[1], low[1])
 axes.axis("off")
 figure.tight_layout()
 
-assert len(kept) > 3
+assert len(kept) > 12
 # it has come to rest: the last two that were kept are nearer than the first two
 way = [np.abs(b - a).max() for a, b in zip(kept, kept[1:])]
 assert way[-1] < 0.2 * way[0]
