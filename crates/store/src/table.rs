@@ -40,7 +40,7 @@ const SCHEMA: &str = "message schema {
     optional binary geometry;
 }";
 
-/// Which column holds the geometry, by GeoParquet 1.1; no system of coordinates, since pixels lie nowhere on Earth.
+/// Which column holds the geometry, by `GeoParquet` 1.1; no system of coordinates, since pixels lie nowhere on Earth.
 const GEO: &str = r#"{"version": "1.1.0", "primary_column": "geometry", "columns": {"geometry": {"encoding": "WKB", "geometry_types": ["Polygon", "LineString"], "crs": null}}}"#;
 
 /// Columns of few different texts.
