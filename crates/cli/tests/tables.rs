@@ -1,5 +1,10 @@
 //! `snake fit --as parquet`: a table that goes on where it was, by this command or by pysnakes.
 #![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a test: small whole numbers"
+)]
 
 use crate::common::{self, Folder};
 use glam::DVec2;
@@ -25,7 +30,7 @@ fn pictures() -> Folder {
     for (name, contrast) in [("a", 120.0), ("b", 110.0), ("c", 0.0)] {
         folder.write(&format!("in/{name}.pgm"), disc(contrast));
     }
-    folder.write("in/d.pgm", b"P5\n64 48\n255\n and no more".to_vec());
+    folder.write("in/d.pgm", b"P5\n64 48\n255\n and no more");
     folder
 }
 
@@ -125,7 +130,7 @@ fn a_table_is_of_a_folder_and_a_foreign_one_is_refused() {
     assert_eq!(run.code, Some(2));
     assert!(run.err.contains("--out-dir"), "{}", run.err);
     std::fs::create_dir(folder.path("out")).unwrap();
-    folder.write("out/joined.parquet", b"PAR1 and no more".to_vec());
+    folder.write("out/joined.parquet", b"PAR1 and no more");
     let run = folder.snake(&FIT);
     assert_eq!(run.code, Some(2));
     assert!(run.err.contains("joined.parquet"), "{}", run.err);

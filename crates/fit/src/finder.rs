@@ -1,13 +1,11 @@
 //! The method of searches: from a start to an outline on its edge, and what speaks for it.
 
-use elastic::ElasticError;
 use glam::DVec2;
 use search::along::Polygon;
 use search::{Rules, Support};
 use snake::Outcome;
 
 use crate::evidence::LEAST_AREA;
-use crate::limits::MOST_NODES;
 use crate::{
     Choices, Contour, Doubt, Evidence, Fit, FitError, NodeEvidence, Nodes, OptionKey, Prepared,
     Problem, Searched,
@@ -39,7 +37,7 @@ pub(crate) fn found(
 ) -> Result<Option<Fit>, FitError> {
     let pixels = prepared.image().pixels();
     let rules = &prepared.options().search;
-    check_nodes(prepared.options().nodes, start.closed)?;
+    prepared.options().nodes.check(start.closed)?;
     let begun = begin(prepared, start)?;
     let searched = match &begun {
         Begun::Click(place) => search::find_around_unless(pixels, *place, rules, asked),
@@ -162,26 +160,6 @@ enum Begun {
     Click(DVec2),
     /// A curve, closed ones clockwise on the screen.
     Curve { curve: Polygon, repaired: bool },
-}
-
-/// Refuse a number of nodes that no outline can have.
-fn check_nodes(nodes: Nodes, closed: bool) -> Result<(), FitError> {
-    let Nodes::Count(got) = nodes else {
-        return Ok(());
-    };
-    let needed = if closed { 5 } else { 3 };
-    if got < needed {
-        let error = ElasticError::TooFewNodes { needed, got };
-        return Err(FitError::new(OptionKey::Nodes, error));
-    }
-    if got > MOST_NODES {
-        let (least, most, got) = (needed as u64, MOST_NODES as u64, got as u64);
-        return Err(FitError::new(
-            OptionKey::Nodes,
-            Problem::Count { least, most, got },
-        ));
-    }
-    Ok(())
 }
 
 /// The start as it is searched from.

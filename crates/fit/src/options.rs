@@ -3,12 +3,13 @@
 use std::fmt;
 use std::sync::Arc;
 
+use elastic::ElasticError;
 use field::Polarity;
 use glam::DVec2;
 use snake::Acting;
 
 use crate::force::{Computing, ImageForceKind, PULL, Sight};
-use crate::limits::MOST_STEPS;
+use crate::limits::{MOST_NODES, MOST_STEPS};
 use crate::{FitError, OptionKey, Problem};
 
 /// How to fit a contour to an image. The default suits objects of some ten to thousands of pixels, drawn
@@ -208,6 +209,24 @@ impl Nodes {
             Self::Auto => Self::Every(4.0).along(length),
             Self::Every(spacing) => (length / spacing).clamp(16.0, 4000.0).round() as usize,
         }
+    }
+
+    /// Refuse a number of nodes that no outline can have.
+    pub(crate) fn check(self, closed: bool) -> Result<(), FitError> {
+        let Self::Count(got) = self else {
+            return Ok(());
+        };
+        let needed = if closed { 5 } else { 3 };
+        if got < needed {
+            let error = ElasticError::TooFewNodes { needed, got };
+            return Err(FitError::new(OptionKey::Nodes, error));
+        }
+        if got > MOST_NODES {
+            let (least, most, got) = (needed as u64, MOST_NODES as u64, got as u64);
+            let problem = Problem::Count { least, most, got };
+            return Err(FitError::new(OptionKey::Nodes, problem));
+        }
+        Ok(())
     }
 }
 

@@ -1,6 +1,6 @@
 """Balls that hit a wall.
 
-Three balls of the same mass, from soft to hard, in the report's world of two walls and gravity. A simulation is stepped
+Three oval balls of the same mass, from soft to hard, in the report's world of two walls and gravity. A simulation is stepped
 with a callback between.
 """
 
@@ -11,7 +11,7 @@ import pysnakes
 
 figure, all_axes = plt.subplots(1, 3, figsize=(9, 3.2), sharex=True, sharey=True)
 squeezed = []
-for name, axes in zip(["very-soft-ball", "soft-ball", "hard-ball"], all_axes):
+for name, axes in zip(["soft-ball", "rigid-ball", "hard-ball"], all_axes):
     simulation = pysnakes.Scene.load(name).simulation()
     shapes: list[np.ndarray] = []
     simulation.run(7000, lambda now: shapes.append(now.points), every=350)

@@ -28,7 +28,7 @@ axes.plot(*start.T, "--", color="tab:cyan", linewidth=1)
 axes.plot(*record.last.points.T, color="white", linewidth=2)
 axes.set_title("dashed: drawn; yellow to violet: on its way; white: at rest", fontsize=9)
 # where it has moved
-moved = np.hypot(*(record.last.points - start).T) > 3
+moved = np.hypot(*(record.last.points - start).T) > 12
 low, high = start[moved].min(axis=0) - 30, start[moved].max(axis=0) + 30
 axes.set_xlim(low[0], high[0])
 axes.set_ylim(high[1], low[1])

@@ -21,8 +21,10 @@ FOLDER = Path(__file__).resolve().parents[1]
 @pytest.fixture
 def viewer():
     pytest.importorskip("napari")
+    import npe2
     from napari.components import ViewerModel
 
+    npe2.PluginManager.instance().discover()  # as the window does when it opens
     return ViewerModel()
 
 

@@ -1,5 +1,5 @@
-//! Outlines of many pictures as one table: a folder of [GeoParquet](https://geoparquet.org) files that pandas, `DuckDB`
-//! and QGIS read.
+//! Outlines of many pictures as one table: a folder of [GeoParquet](https://geoparquet.org) files that pandas,
+//! `DuckDB` and QGIS read.
 //!
 //! A row is an outline. What a picture gave is one file, written whole or not at all under a name made from the
 //! picture's, so that a run that was killed goes on where it was, whichever program began it: the command `snake fit`

@@ -6,6 +6,7 @@ mod film;
 mod flags;
 mod former;
 mod inputs;
+mod job;
 mod measures;
 mod one;
 mod options;

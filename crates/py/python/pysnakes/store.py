@@ -197,7 +197,7 @@ class Results:
             # what the Rust side reads too: no codec that it has not
             pa.parquet.write_table(
                 table, growing, compression="snappy", use_dictionary=["image", "outcome", "reason"],
-                column_encoding=split, store_schema=False,
+                column_encoding=split,
             )
             os.replace(growing, path)
         finally:
