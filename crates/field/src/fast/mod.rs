@@ -8,10 +8,13 @@
 //! rounding as a lone `f32` would: the result has the same bytes on every machine and for any number of threads.
 
 mod lazy;
-mod lines;
+mod masks;
 mod pixel;
 mod plan;
+mod room;
+mod slide;
 mod tile;
+mod vector;
 
 #[cfg(test)]
 mod tests;
@@ -28,7 +31,7 @@ use crate::{EdgeForce, Smoothing};
 use ndarray::{ArcArray2, Array2, ArrayView2};
 use plan::Plan;
 use std::sync::{Arc, Mutex};
-use tile::{Job, Place, Scratch, TILE};
+use tile::{Job, Place, QUANTUM, Scratch, TILE};
 
 /// The force field of a recipe, fast and in `f32`.
 ///
@@ -125,6 +128,9 @@ impl FastForce {
     }
 }
 
+/// Forces that fill the larger caches: 16 MiB.
+const MANY: usize = 1 << 21;
+
 /// Computes all tiles; says whether a pixel was met that should be refused.
 fn compute<P: Pixel>(
     plan: &Plan,
@@ -133,12 +139,18 @@ fn compute<P: Pixel>(
     forces: &mut [[f32; 2]],
 ) -> bool {
     let (height, width) = image.dim();
-    // tiles of equal size: no narrow ones at the end
-    let across = width.div_ceil(width.div_ceil(TILE.0));
-    let down = height.div_ceil(height.div_ceil(TILE.1));
+    // tiles of about equal size: no narrow ones at the end, and none wider than its vectors
+    let size = |n: usize, most: usize| {
+        let even = n.div_ceil(n.div_ceil(most)) + 4;
+        even.next_multiple_of(QUANTUM) - 4
+    };
+    // enough bands for all workers, and none so low that most of it is margin
+    let fair = height.div_ceil(4 * workers.len()).max(256);
+    let (across, down) = (size(width, TILE.0), size(height, TILE.1.min(fair)));
+    let many = forces.len() >= MANY;
     let queue = Mutex::new(forces.chunks_mut(down * width).enumerate());
     let work = |scratch: &mut Scratch| {
-        let arch = pulp::Arch::new();
+        let arch = lanes::registers();
         let mut bad = false;
         loop {
             // nothing can panic while the lock is held
@@ -159,6 +171,7 @@ fn compute<P: Pixel>(
                     scratch,
                     out,
                     out_stride: width,
+                    many,
                 });
             }
         }

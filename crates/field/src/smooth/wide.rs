@@ -151,7 +151,7 @@ fn wanted(smoothing: Smoothing, omega: f64) -> f64 {
 /// `out = Σ weight · row`, columns in blocks, four rows at a time.
 fn combine(terms: &[(f64, usize)], rows: &[f64], width: usize, out: &mut [f64]) {
     out.fill(0.0);
-    pulp::Arch::new().dispatch(|| {
+    lanes::registers().dispatch(|| {
         for (block, out) in out.chunks_mut(COLUMNS).enumerate() {
             let n = out.len();
             let row = |i: usize| &rows[i * width + block * COLUMNS..][..n];
