@@ -25,7 +25,6 @@ pub use plan::Recipe;
 
 use crate::error::FieldError;
 use crate::force_field::ForceField;
-use crate::grid::Grid;
 use crate::smooth::wide::Wide;
 use crate::{EdgeForce, Smoothing};
 use ndarray::{ArcArray2, Array2, ArrayView2};
@@ -54,8 +53,8 @@ pub fn fast_force<P: Pixel>(
 /// magnitude of a pixel and scale 1 for the corrected recipe (tested). Up to σ ≈ 18 px O(pixels · σ); memory is the output and
 /// less than 1 MiB a thread (tested). Any number of threads gives the same bytes.
 ///
-/// A filter beyond σ ≈ 18 px does not fit the tiles. Then the picture is smoothed on thinned-out lines in `f64`, on one
-/// thread and in the memory of several grids, before it goes through the tiles, at a cost that no longer grows with σ; the bound above still holds
+/// A filter beyond σ ≈ 18 px does not fit the tiles. Then the picture is smoothed on thinned-out lines, on one
+/// thread and in the memory of several pictures, before it goes through the tiles, at a cost that no longer grows with σ; the bound above still holds
 /// (tested), though no wave is smoothed better than to 1e-6 of its amplitude.
 #[derive(Debug)]
 pub struct FastForce {
@@ -262,26 +261,25 @@ fn wide_force<P: Pixel>(
     if let Some(error) = first_bad_pixel(&image, most) {
         return Err(error);
     }
-    let image: Grid = image.mapv(|pixel| f64::from(pixel.level()));
+    let dim = image.dim();
+    let pixels: Vec<f32> = image.iter().map(|pixel| pixel.level()).collect();
     let wide = Wide::new(smoothing);
-    let mut field = |smoothed: &Grid| fast.field(smoothed.mapv(narrow).view());
+    let mut field = |smoothed: Vec<f32>| {
+        // as many as there were
+        match ArrayView2::from_shape(dim, &smoothed) {
+            Ok(smoothed) => fast.field(smoothed),
+            Err(_) => fast.field(image),
+        }
+    };
     match *recipe {
         Recipe::Report { .. } => {
-            let x = field(&wide.along_x(&image))?;
-            let mut y = field(&wide.along_y(&image))?;
+            let x = field(wide.along_x(&pixels, dim.1))?;
+            let mut y = field(wide.along_y(&pixels, dim.1))?;
             y.take_x_from(&x);
             Ok(y)
         }
-        Recipe::Edge(_) => field(&wide.along_y(&wide.along_x(&image))),
+        Recipe::Edge(_) => field(wide.along_y(&wide.along_x(&pixels, dim.1), dim.1)),
     }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "rounding to f32 is the point"
-)]
-fn narrow(level: f64) -> f32 {
-    level as f32
 }
 
 /// The first pixel in reading order that is not finite or above `most`.

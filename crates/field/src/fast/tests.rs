@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Interpolation, edge_force, report_force};
+use crate::{Grid, Interpolation, edge_force, report_force};
 use glam::{DMat2, DVec2};
 use ndarray::s;
 use proptest::prelude::*;

@@ -350,7 +350,7 @@ mod tests {
         pulp::Arch::Scalar.dispatch(Turn);
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = pulp::x86::V3::try_new() {
-            pulp::Simd::vectorize(avx2, Turn);
+            Simd::vectorize(avx2, Turn);
         }
     }
 }
