@@ -99,84 +99,85 @@ def opencv(image):
             cv2.sepFilter2D(dy, cv2.CV_32F, across, SLOPE, borderType=cv2.BORDER_CONSTANT))
 
 
+REACH = 17
+
+
 @numba.njit(fastmath=True)
-def _rows(image, weights, gain, out):
-    """The same row by row: what later rows need of earlier ones is kept for three rows, all sums run along rows."""
+def _rows(image, weights, gain, padded, out):
+    """The same row by row: what later rows need of earlier ones is kept for three rows.
+
+    The filters are of a length known when this is compiled, so that their loops are unrolled and the loops along the row
+    are in wide registers.
+    """
     height, width = image.shape
-    reach = len(weights)
-    pad = reach
-    line = np.zeros(width + 2 * pad, np.float32)
+    for r in range(height):
+        row, to = image[r], padded[r + REACH]
+        for c in range(width):
+            to[REACH + c] = row[c]
+        for c in range(REACH):
+            to[c] = row[min(REACH - 1 - c, width - 1)]
+            to[REACH + width + c] = row[max(width - 1 - c, 0)]
+    for r in range(REACH):
+        padded[r] = padded[2 * REACH - 1 - r]
+        padded[height + REACH + r] = padded[height + REACH - 1 - r]
     d = np.zeros((3, width), np.float32)
     a = np.zeros((3, width), np.float32)
-    s = np.zeros((3, width), np.float32)
     g = np.zeros(width + 2, np.float32)
     h = np.zeros(width + 2, np.float32)
+    s = np.zeros(width + 2, np.float32)
     e = np.zeros((3, width), np.float32)
-    for r in range(height + 3):
+    w = weights
+    for r in range(height + 2):
+        to = d[r % 3]
         if r < height:
-            row = image[r]
+            line = padded[r + REACH]
             for c in range(width):
-                line[pad + c] = row[c]
-            for c in range(pad):
-                line[c] = row[min(pad - 1 - c, width - 1)]
-                line[pad + width + c] = row[max(width - 1 - c, 0)]
-            to = d[r % 3]
+                total = np.float32(0)
+                for k in range(REACH):
+                    total += w[k] * (line[REACH + c + k + 1] - line[REACH + c - k - 1])
+                to[c] = total
             for c in range(width):
-                to[c] = 0.0
-            for k in range(1, reach + 1):
-                w = weights[k - 1]
-                for c in range(width):
-                    to[c] += w * (line[pad + c + k] - line[pad + c - k])
-        elif r < height + 3:
-            d[r % 3][:] = 0.0
+                total = np.float32(0)
+                for k in range(REACH):
+                    total += w[k] * (padded[r + REACH + k + 1, REACH + c] - padded[r + REACH - k - 1, REACH + c])
+                g[c + 1] = total
+            for c in range(width):
+                h[c + 1] = abs(g[c] + 2 * g[c + 1] + g[c + 2])
+            here = e[r % 3]
+            for c in range(width):
+                here[c] = h[c] + 2 * h[c + 1] + h[c + 2]
+        else:
+            to[:] = 0.0
+            e[r % 3][:] = 0.0
         if 1 <= r <= height:
             up, here, down, to = d[(r - 2) % 3], d[(r - 1) % 3], d[r % 3], a[(r - 1) % 3]
             for c in range(width):
                 to[c] = abs(up[c] + 2 * here[c] + down[c])
-        elif r > height:
-            a[(r - 1) % 3][:] = 0.0
-        if 2 <= r <= height + 1:
-            up, here, down, to = a[(r - 3) % 3], a[(r - 2) % 3], a[(r - 1) % 3], s[(r - 2) % 3]
-            for c in range(width):
-                to[c] = up[c] + 2 * here[c] + down[c]
-        if r < height:
-            for c in range(width):
-                g[c + 1] = 0.0
-            for k in range(1, reach + 1):
-                w = weights[k - 1]
-                below, above = r + k, r - k
-                below = below if below < height else 2 * height - 1 - below
-                above = above if above >= 0 else -1 - above
-                lower, upper = image[below], image[above]
-                for c in range(width):
-                    g[c + 1] += w * (np.float32(lower[c]) - np.float32(upper[c]))
-            for c in range(width):
-                h[c + 1] = abs(g[c] + 2 * g[c + 1] + g[c + 2])
-            to = e[r % 3]
-            for c in range(width):
-                to[c] = h[c] + 2 * h[c + 1] + h[c + 2]
-        elif r < height + 3:
-            e[r % 3][:] = 0.0
-        if 2 <= r <= height + 1:
-            at = r - 2
-            wide, to = s[at % 3], out[at]
-            for c in range(1, width - 1):
-                to[c, 0] = gain * (wide[c + 1] - wide[c - 1])
-            to[0, 0] = gain * wide[1]
-            to[width - 1, 0] = -gain * wide[width - 2]
-        if 1 <= r <= height:
-            at = r - 1
-            lower, upper, to = e[(at + 1) % 3], e[(at - 1) % 3], out[at]
+            lower, upper, to = e[r % 3], e[(r - 2) % 3], out[r - 1]
             for c in range(width):
                 to[c, 1] = gain * (lower[c] - upper[c])
+        elif r == height + 1:
+            a[height % 3][:] = 0.0
+        if r >= 2:
+            up, here, down = a[(r - 3) % 3], a[(r - 2) % 3], a[(r - 1) % 3]
+            for c in range(width):
+                s[c + 1] = up[c] + 2 * here[c] + down[c]
+            to = out[r - 2]
+            for c in range(width):
+                to[c, 0] = gain * (s[c + 2] - s[c])
 
 
-WEIGHTS = np.ascontiguousarray(-TAPS[21 + 1:][:17], np.float32)
+WEIGHTS = np.ascontiguousarray(-TAPS[21 + 1:][:REACH], np.float32)
 
 
-def numba_rows(image, out):
-    _rows(image, WEIGHTS, np.float32(GAIN / 16), out)
+def numba_rows(image, out, padded):
+    _rows(image, WEIGHTS, np.float32(GAIN / 16), padded, out)
     return out
+
+
+def room(side):
+    """Memory for a field and for the picture with its margins."""
+    return np.empty((side, side, 2), np.float32), np.empty((side + 2 * REACH, side + 2 * REACH), np.float32)
 
 
 # --- one step of a snake
@@ -274,7 +275,7 @@ def fields(ours, rounds, sides):
         for kind in ["f32", "u8", "u16"]:
             numpy_kind = {"f32": np.float32, "u8": np.uint8, "u16": np.uint16}[kind]
             image = picture(side, numpy_kind)
-            out = np.empty((side, side, 2), np.float32)
+            out, padded = room(side)
             cases = {}
             for bits, process in ours.items():
                 for rules in ["report", "corrected"]:
@@ -282,7 +283,7 @@ def fields(ours, rounds, sides):
                     cases[f"{rules} {bits}"] = lambda process=process, line=line: process.ask(line)
             cases["opencv"] = lambda: timed(lambda: opencv(image))
             cases["filters"] = lambda: timed(lambda: opencv_filters(image))
-            cases["numba"] = lambda: timed(lambda: numba_rows(image, out))
+            cases["numba"] = lambda: timed(lambda: numba_rows(image, out, padded))
             found = take_turns(cases, rounds if side < 8000 else min(rounds, 5))
             per = {name: ns / side ** 2 for name, ns in found.items()}
             rows.append((f"{side}² {kind}", per))
@@ -292,8 +293,7 @@ def fields(ours, rounds, sides):
 
 def snakes(ours, rounds, nodes):
     image = picture(512, np.uint8)
-    field = np.empty((512, 512, 2), np.float32)
-    numba_rows(image, field)
+    field = numba_rows(image, *room(512))
     cases = {}
     for bits, process in ours.items():
         for what in ["step", "run"]:
@@ -325,8 +325,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--rounds", type=int, default=15)
     parser.add_argument("--quick", action="store_true", help="no pictures of 8192² pixels")
+    parser.add_argument("--built", action="store_true", help="the program as it was built last")
     options = parser.parse_args()
-    subprocess.run(["cargo", "build", "--release", "-p", "benches", "--example", "beside"], check=True, cwd=ROOT)
+    if not options.built:
+        subprocess.run(["cargo", "build", "--release", "-p", "benches", "--example", "beside"], check=True, cwd=ROOT)
     ours = {}
     for bits in [256, 512]:
         process = Ours(bits)

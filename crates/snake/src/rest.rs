@@ -145,7 +145,11 @@ impl Watch {
     /// Look at the state after a step; true where a window ends, which [`Watch::judge`] then judges. O(n).
     pub(crate) fn look(&mut self, snake: &Snake, state: &State) -> bool {
         self.looks += 1;
-        widen(flat(&state.x), flat_mut(&mut self.low), flat_mut(&mut self.high));
+        widen(
+            flat(&state.x),
+            flat_mut(&mut self.low),
+            flat_mut(&mut self.high),
+        );
         self.liveliest = self.liveliest.max(kinetic(snake, state));
         let away = farthest_squared(flat(&state.x), flat(&self.mark)).sqrt();
         if away > self.far {

@@ -38,8 +38,8 @@ const FLOORS: [(&str, u32); 25] = [
     ("wasm", 10), // the page with its engine inside
     ("sandbox", 9),
     ("benches", 10), // it draws with the kit of the sandbox
-    ("peers", 11),  // general solvers, which nothing else builds
-    ("py", 9),      // the same for Python
+    ("peers", 11),   // general solvers, which nothing else builds
+    ("py", 9),       // the same for Python
 ];
 
 /// Outside crates and who may open the door to them. `*` is everybody, `test` everybody's tests.

@@ -27,7 +27,7 @@ pub(super) fn slide_block<L: Lanes, const B: usize, const ODD: bool>(
 ) -> [L::V; B] {
     let mut out = [lanes.splat(0.0); B];
     let around = from.len() - B;
-    if L::EIGHT_SUMS && B % 8 == 0 {
+    if L::EIGHT_SUMS && B.is_multiple_of(8) {
         for at in (0..B).step_by(8) {
             let sums = block::<L, 8, ODD>(lanes, &from[at..at + 8 + around], weights);
             out[at..at + 8].copy_from_slice(&sums);

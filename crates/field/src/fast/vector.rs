@@ -167,7 +167,7 @@ fn stream(simd: pulp::x86::V3, d: [&[f32; 16]; 4], out: &mut [[f32; 2]; 16]) -> 
     let (right, left) = (V3::as_simd_f32s(d[0]).0, V3::as_simd_f32s(d[1]).0);
     let (below, above) = (V3::as_simd_f32s(d[2]).0, V3::as_simd_f32s(d[3]).0);
     let out: &mut [f32] = out.as_flattened_mut();
-    if out.as_ptr().addr() % 32 != 0 {
+    if !out.as_ptr().addr().is_multiple_of(32) {
         return false;
     }
     for (i, out) in out.chunks_exact_mut(16).enumerate() {
