@@ -38,7 +38,7 @@ type Outcome<T> = Result<T, Box<dyn Error>>;
 /// Something to count: set up once, then run as often as asked.
 type Kernel = fn(u32) -> Outcome<()>;
 
-const KERNELS: [(&str, Kernel); 20] = [
+const KERNELS: [(&str, Kernel); 23] = [
     ("banded-solve/1000", solve),
     ("elastic-force/1000", elastic_force),
     ("leapfrog-step/1000", |times| {
@@ -71,6 +71,30 @@ const KERNELS: [(&str, Kernel); 20] = [
     ("field-sample/1000", sample),
     ("field-report/64x64", report),
     ("field-edge/64x64", edge),
+    ("fast-report/512x512", |times| {
+        let passes = field::REPORT_PASSES;
+        fast(
+            field::Recipe::Report {
+                passes,
+                scale: field::REPORT_SCALE,
+                gain: field::REPORT_GAIN,
+            },
+            times,
+        )
+    }),
+    ("fast-edge/512x512", |times| {
+        fast(
+            field::Recipe::Edge(EdgeForce::as_strong_as_the_report()),
+            times,
+        )
+    }),
+    ("fast-wide/512x512", |times| {
+        let rule = EdgeForce {
+            smoothing: field::Smoothing::Gaussian(40.0),
+            gain: 1.0,
+        };
+        fast(field::Recipe::Edge(rule), times)
+    }),
 ];
 
 fn wave(n: usize) -> Vec<DVec2> {
@@ -245,6 +269,19 @@ fn edge(times: u32) -> Outcome<()> {
     let (picture, rule) = (picture(), EdgeForce::as_strong_as_the_report());
     for _ in 0..times {
         black_box(field::edge_force(black_box(&picture), &rule)?);
+    }
+    Ok(())
+}
+
+/// A field in single precision: 262 144 pixels of 8 bits.
+fn fast(recipe: field::Recipe, times: u32) -> Outcome<()> {
+    let picture = ndarray::Array2::from_shape_fn((512, 512), |(y, x)| {
+        u8::try_from((7 * x + 3 * y) % 251).unwrap_or_default()
+    });
+    let mut fast = field::FastForce::new(recipe, 1)?;
+    let mut field = fast.field(picture.view())?;
+    for _ in 0..times {
+        fast.field_into(black_box(picture.view()), &mut field)?;
     }
     Ok(())
 }

@@ -16,7 +16,7 @@
 //! Spikes fade along the chain at a rate set by the matrix. They are kept as far as they matter:
 //! what is dropped is below [`FADED`] times the largest diagonal element.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 use crate::BandedError;
 use crate::chain::{Backward, Chain, Forward, Heart, Rows};
@@ -149,7 +149,7 @@ impl<E: Copy> Twisted<E> {
     /// With the widest registers there are. Every operation rounds by itself, so width changes the
     /// time and never a digit.
     pub(crate) fn solve<V: Node<E>>(&self, b: &mut [V]) {
-        Arch::new().dispatch(Sweep { factor: self, b });
+        lanes::registers().dispatch(Sweep { factor: self, b });
     }
 
     #[inline(always)]

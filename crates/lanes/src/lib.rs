@@ -28,6 +28,10 @@
 //! fused with a sum, so that the digits are the same in registers of any width. Sums over a slice
 //! are in an order of their own, fixed here: [`total`].
 
+mod registers;
+
+pub use registers::{register_bits, registers};
+
 use glam::DVec2;
 
 /// The coordinates of points, x and y in turn: a view, nothing is copied.
@@ -67,7 +71,7 @@ impl<T: Wide> pulp::WithSimd for Job<T> {
 /// Run a loop in the widest registers of this machine. Choosing them costs a few nanoseconds.
 #[inline]
 pub fn run<T: Wide>(job: T) -> T::Output {
-    pulp::Arch::new().dispatch(Job(job))
+    registers().dispatch(Job(job))
 }
 
 /// Declares a function that runs in the widest registers of this machine.

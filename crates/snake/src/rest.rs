@@ -12,6 +12,7 @@
 
 use glam::DVec2;
 use integrator::{State, System};
+use lanes::{flat, flat_mut, wide};
 
 use crate::force::Acting;
 use crate::{ImageForce, Outcome, Snake};
@@ -104,7 +105,8 @@ pub(crate) struct Watch {
     far: f64,
     near: f64,
     /// The box each node has been in during this window.
-    boxes: Vec<(DVec2, DVec2)>,
+    low: Vec<DVec2>,
+    high: Vec<DVec2>,
     /// The longest diagonal of such a box, window by window, while the curve goes to and fro.
     swings: Vec<f64>,
     net: Vec<DVec2>,
@@ -129,7 +131,8 @@ impl Watch {
             strongest: 0.0,
             far: 0.0,
             near: f64::INFINITY,
-            boxes: state.x.iter().map(|&x| (x, x)).collect(),
+            low: state.x.clone(),
+            high: state.x.clone(),
             swings: Vec::new(),
             net: vec![DVec2::ZERO; n],
             one: vec![DVec2::ZERO; n],
@@ -142,14 +145,13 @@ impl Watch {
     /// Look at the state after a step; true where a window ends, which [`Watch::judge`] then judges. O(n).
     pub(crate) fn look(&mut self, snake: &Snake, state: &State) -> bool {
         self.looks += 1;
+        widen(
+            flat(&state.x),
+            flat_mut(&mut self.low),
+            flat_mut(&mut self.high),
+        );
         self.liveliest = self.liveliest.max(kinetic(snake, state));
-        let mut away = 0.0_f64;
-        let nodes = state.x.iter().zip(&self.mark).zip(&mut self.boxes);
-        for ((x, mark), (low, high)) in nodes {
-            away = away.max(x.distance_squared(*mark));
-            (*low, *high) = (low.min(*x), high.max(*x));
-        }
-        let away = away.sqrt();
+        let away = farthest_squared(flat(&state.x), flat(&self.mark)).sqrt();
         if away > self.far {
             (self.far, self.near) = (away, away);
         } else {
@@ -182,9 +184,8 @@ impl Watch {
         self.since = state.t;
         self.late = None;
         (self.far, self.near) = (0.0, f64::INFINITY);
-        for (seen, &x) in self.boxes.iter_mut().zip(&state.x) {
-            *seen = (x, x);
-        }
+        self.low.copy_from_slice(&state.x);
+        self.high.copy_from_slice(&state.x);
         Some(verdict)
     }
 
@@ -220,8 +221,9 @@ impl Watch {
         }
         // to and fro: it was far and came back, window after window, and always as far
         if self.near < 0.25 * self.far && self.far > most {
-            let boxes = self.boxes.iter().map(|(low, high)| low.distance(*high));
-            self.swings.push(boxes.fold(0.0, f64::max));
+            let boxes = self.low.iter().zip(&self.high);
+            let longest = boxes.map(|(low, high)| low.distance_squared(*high));
+            self.swings.push(longest.fold(0.0, f64::max).sqrt());
         } else {
             self.swings.clear();
         }
@@ -330,8 +332,58 @@ impl Watch {
 }
 
 fn kinetic(snake: &Snake, state: &State) -> f64 {
-    let squares = state.v.iter().zip(snake.mass());
-    squares.map(|(v, m)| m * v.length_squared()).sum()
+    twice_kinetic(flat(&state.v), snake.mass())
+}
+
+wide! {
+    /// Boxes grow to hold what is in `x`.
+    fn widen(x: &[f64], low: &mut [f64], high: &mut [f64]) {
+        let (low, high) = (&mut low[..x.len()], &mut high[..x.len()]);
+        for k in 0..x.len() {
+            low[k] = if x[k] < low[k] { x[k] } else { low[k] };
+            high[k] = if x[k] > high[k] { x[k] } else { high[k] };
+        }
+    }
+}
+
+/// Points looked at together: their sums do not wait for each other.
+const TOGETHER: usize = 8;
+
+wide! {
+    /// Σ m v², in eight parts.
+    fn twice_kinetic(v: &[f64], mass: &[f64]) -> f64 {
+        let (many, few) = v.as_chunks::<{ 2 * TOGETHER }>();
+        let (masses, few_masses) = mass.as_chunks::<TOGETHER>();
+        let mut sums = [0.0; TOGETHER];
+        for (v, m) in many.iter().zip(masses) {
+            for j in 0..TOGETHER {
+                sums[j] += m[j] * (v[2 * j] * v[2 * j] + v[2 * j + 1] * v[2 * j + 1]);
+            }
+        }
+        let rest = few.as_chunks::<2>().0.iter().zip(few_masses);
+        let rest: f64 = rest.map(|([x, y], m)| m * (x * x + y * y)).sum();
+        let [a, b, c, d, e, f, g, h] = sums;
+        (((a + b) + (c + d)) + ((e + f) + (g + h))) + rest
+    }
+}
+
+wide! {
+    /// The largest squared distance of a point from its mark.
+    fn farthest_squared(x: &[f64], mark: &[f64]) -> f64 {
+        let (many, few) = x.as_chunks::<{ 2 * TOGETHER }>();
+        let (marks, few_marks) = mark.as_chunks::<{ 2 * TOGETHER }>();
+        let mut most = [0.0_f64; TOGETHER];
+        for (x, mark) in many.iter().zip(marks) {
+            for j in 0..TOGETHER {
+                let (dx, dy) = (x[2 * j] - mark[2 * j], x[2 * j + 1] - mark[2 * j + 1]);
+                let far = dx * dx + dy * dy;
+                most[j] = if far > most[j] { far } else { most[j] };
+            }
+        }
+        let rest = few.as_chunks::<2>().0.iter().zip(few_marks.as_chunks::<2>().0);
+        let rest = rest.map(|([x, y], [a, b])| (x - a) * (x - a) + (y - b) * (y - b));
+        rest.chain(most).fold(0.0, f64::max)
+    }
 }
 
 /// Half the diagonal of the box around the nodes.

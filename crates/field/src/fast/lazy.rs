@@ -104,13 +104,14 @@ impl<P: Pixel> Tiles<P> {
             height: SMALL_TILE.1.min(height - y),
         };
         let mut out = vec![[0.0; 2]; SMALL_TILE.0 * place.height];
-        let bad = pulp::Arch::new().dispatch(Job {
+        let bad = lanes::registers().dispatch(Job {
             plan: &self.plan,
             image: self.image.view(),
             place,
             scratch: &mut Scratch::default(),
             out: &mut out,
             out_stride: SMALL_TILE.0,
+            many: false,
         });
         if bad {
             out.fill([f32::NAN; 2]);

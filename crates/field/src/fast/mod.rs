@@ -8,10 +8,13 @@
 //! rounding as a lone `f32` would: the result has the same bytes on every machine and for any number of threads.
 
 mod lazy;
-mod lines;
+mod masks;
 mod pixel;
 mod plan;
+mod room;
+mod slide;
 mod tile;
+mod vector;
 
 #[cfg(test)]
 mod tests;
@@ -22,13 +25,12 @@ pub use plan::Recipe;
 
 use crate::error::FieldError;
 use crate::force_field::ForceField;
-use crate::grid::Grid;
 use crate::smooth::wide::Wide;
 use crate::{EdgeForce, Smoothing};
 use ndarray::{ArcArray2, Array2, ArrayView2};
 use plan::Plan;
 use std::sync::{Arc, Mutex};
-use tile::{Job, Place, Scratch, TILE};
+use tile::{Job, Place, QUANTUM, Scratch, TILE};
 
 /// The force field of a recipe, fast and in `f32`.
 ///
@@ -51,8 +53,8 @@ pub fn fast_force<P: Pixel>(
 /// magnitude of a pixel and scale 1 for the corrected recipe (tested). Up to σ ≈ 18 px O(pixels · σ); memory is the output and
 /// less than 1 MiB a thread (tested). Any number of threads gives the same bytes.
 ///
-/// A filter beyond σ ≈ 18 px does not fit the tiles. Then the picture is smoothed on thinned-out lines in `f64`, on one
-/// thread and in the memory of several grids, before it goes through the tiles, at a cost that no longer grows with σ; the bound above still holds
+/// A filter beyond σ ≈ 18 px does not fit the tiles. Then the picture is smoothed on thinned-out lines, on one
+/// thread and in the memory of several pictures, before it goes through the tiles, at a cost that no longer grows with σ; the bound above still holds
 /// (tested), though no wave is smoothed better than to 1e-6 of its amplitude.
 #[derive(Debug)]
 pub struct FastForce {
@@ -125,6 +127,9 @@ impl FastForce {
     }
 }
 
+/// Forces that fill the larger caches: 16 MiB.
+const MANY: usize = 1 << 21;
+
 /// Computes all tiles; says whether a pixel was met that should be refused.
 fn compute<P: Pixel>(
     plan: &Plan,
@@ -133,12 +138,18 @@ fn compute<P: Pixel>(
     forces: &mut [[f32; 2]],
 ) -> bool {
     let (height, width) = image.dim();
-    // tiles of equal size: no narrow ones at the end
-    let across = width.div_ceil(width.div_ceil(TILE.0));
-    let down = height.div_ceil(height.div_ceil(TILE.1));
+    // tiles of about equal size: no narrow ones at the end, and none wider than its vectors
+    let size = |n: usize, most: usize| {
+        let even = n.div_ceil(n.div_ceil(most)) + 4;
+        even.next_multiple_of(QUANTUM) - 4
+    };
+    // enough bands for all workers, and none so low that most of it is margin
+    let fair = height.div_ceil(4 * workers.len()).max(256);
+    let (across, down) = (size(width, TILE.0), size(height, TILE.1.min(fair)));
+    let many = forces.len() >= MANY;
     let queue = Mutex::new(forces.chunks_mut(down * width).enumerate());
     let work = |scratch: &mut Scratch| {
-        let arch = pulp::Arch::new();
+        let arch = lanes::registers();
         let mut bad = false;
         loop {
             // nothing can panic while the lock is held
@@ -159,6 +170,7 @@ fn compute<P: Pixel>(
                     scratch,
                     out,
                     out_stride: width,
+                    many,
                 });
             }
         }
@@ -249,26 +261,25 @@ fn wide_force<P: Pixel>(
     if let Some(error) = first_bad_pixel(&image, most) {
         return Err(error);
     }
-    let image: Grid = image.mapv(|pixel| f64::from(pixel.level()));
+    let dim = image.dim();
+    let pixels: Vec<f32> = image.iter().map(|pixel| pixel.level()).collect();
     let wide = Wide::new(smoothing);
-    let mut field = |smoothed: &Grid| fast.field(smoothed.mapv(narrow).view());
+    let mut field = |smoothed: Vec<f32>| {
+        // as many as there were
+        match ArrayView2::from_shape(dim, &smoothed) {
+            Ok(smoothed) => fast.field(smoothed),
+            Err(_) => fast.field(image),
+        }
+    };
     match *recipe {
         Recipe::Report { .. } => {
-            let x = field(&wide.along_x(&image))?;
-            let mut y = field(&wide.along_y(&image))?;
+            let x = field(wide.along_x(&pixels, dim.1))?;
+            let mut y = field(wide.along_y(&pixels, dim.1))?;
             y.take_x_from(&x);
             Ok(y)
         }
-        Recipe::Edge(_) => field(&wide.along_y(&wide.along_x(&image))),
+        Recipe::Edge(_) => field(wide.along_y(&wide.along_x(&pixels, dim.1), dim.1)),
     }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "rounding to f32 is the point"
-)]
-fn narrow(level: f64) -> f32 {
-    level as f32
 }
 
 /// The first pixel in reading order that is not finite or above `most`.

@@ -78,6 +78,17 @@ impl Columns {
         }
     }
 
+    /// The image's own pixels among these columns, of a line `y` of its own, where they lie together.
+    #[inline(always)]
+    pub(super) fn inside<'a, P: Pixel>(
+        &self,
+        image: &'a ArrayView2<'_, P>,
+        y: isize,
+    ) -> Option<&'a [P]> {
+        let y = usize::try_from(y).ok().filter(|&y| y < image.nrows())?;
+        image.row(y).to_slice()?.get(self.inside.clone())
+    }
+
     /// Loads these columns of line `y` of the mirrored image.
     ///
     /// Returns the largest [`Pixel::magnitude`] met.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Interpolation, edge_force, report_force};
+use crate::{Grid, Interpolation, edge_force, report_force};
 use glam::{DMat2, DVec2};
 use ndarray::s;
 use proptest::prelude::*;
@@ -194,6 +194,7 @@ fn every_kind_of_processor_gives_the_same_bytes() {
                 scratch,
                 out: &mut out,
                 out_stride: 150,
+                many: false,
             });
             out
         };
@@ -215,6 +216,36 @@ fn every_kind_of_processor_gives_the_same_bytes() {
                     })
             );
         }
+    }
+}
+
+#[test]
+fn forces_written_past_the_cache_are_those_written_through_it() {
+    let image = noise(70, 150);
+    let plan = Plan::new(&REPORT).unwrap();
+    // rows that begin anywhere within a line of the cache
+    for (x, out_stride) in [(0, 150), (7, 143), (13, 151)] {
+        let place = Place {
+            x,
+            y: 3,
+            width: 140 - x,
+            height: 60,
+        };
+        let [through, past] = [false, true].map(|many| {
+            let mut out = vec![[0.0; 2]; out_stride * 60];
+            lanes::registers().dispatch(Job {
+                plan: &plan,
+                image: image.view(),
+                place,
+                scratch: &mut Scratch::default(),
+                out: &mut out,
+                out_stride,
+                many,
+            });
+            out
+        });
+        assert!(through == past, "{x}");
+        assert!(through.iter().any(|f| f[0].abs() > 0.1));
     }
 }
 

@@ -1,24 +1,35 @@
 //! One tile of a field, from pixels to forces, without leaving the cache.
 //!
-//! A tile of w × h forces works on lines of w + 4 numbers, two more at either end because two masks follow each
-//! other, and reads a margin of `radius` more pixels around those. The lines of intermediate stages are kept three
-//! at a time. What lies beyond the image comes out right by itself where the image is mirrored; where the
-//! report's program pads with zeros, zeros are written.
+//! A tile of w × h forces works on rows of w + 4 numbers, two more at either end because two masks follow each
+//! other, and reads a margin around those as wide as its filters reach. It goes down the tile, a group of rows at a time. Pixels
+//! of as many rows as the filters see are kept in strips, as wide as a register, so that a filter down the tile reads
+//! one vector after the other; a filter along the rows does the same once blocks of N × N numbers are transposed. What
+//! lies beyond the image comes out right by itself where the image is mirrored; where the report's program pads with
+//! zeros, zeros are written.
 
-use super::lines::{Line, QUANTUM, average, filter, length, neighbours, subtract};
+use super::masks::{self, Gradients, Put};
 use super::pixel::{Columns, Pixel};
 use super::plan::{Kind, Plan};
+use super::room::{CACHE_LINE, Room, Rows};
+use super::slide::{SPARE, slide_block};
+use super::vector::{Four, Lanes, Wide};
 use ndarray::ArrayView2;
 use pulp::{Simd, WithSimd};
 
 /// Columns and rows of a tile when a whole image is computed.
 ///
-/// Lines of 256 numbers; all buffers of a tile together stay below 400 KiB for the report's smoothing and below
-/// 0.9 MiB for the widest filter.
-pub(super) const TILE: (usize, usize) = (252, 256);
+/// Wide, so that memory is read and written in long runs. All buffers of a tile together stay below 400 KiB for the
+/// report's smoothing and below 0.9 MiB for the widest filter.
+pub(super) const TILE: (usize, usize) = (524, 1020);
 
 /// Columns and rows of a tile when only a band is wanted.
 pub(super) const SMALL_TILE: (usize, usize) = (124, 64);
+
+/// Columns of a tile, four more than its forces, are a multiple of this: the widest vectors.
+pub(super) const QUANTUM: usize = 16;
+
+/// Rows that are taken from pixels to forces at once.
+const GROUP: usize = 2 * QUANTUM;
 
 /// Where a tile lies.
 #[derive(Debug, Clone, Copy)]
@@ -32,41 +43,13 @@ pub(super) struct Place {
 /// The memory of one worker, used again for every tile.
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
-    pixels: Vec<f32>,
-    smoothed: Vec<f32>,
-    lines: Vec<Line>,
-}
-
-impl Scratch {
-    fn fit(&mut self, n: usize, height: usize, radius: usize, smoothed: bool) {
-        let rows = height + 4 + 2 * radius;
-        if smoothed {
-            // a line of pixels is smoothed as soon as it is read
-            resize_exactly(&mut self.pixels, stride(n, radius));
-            resize_exactly(&mut self.smoothed, rows * n);
-        } else {
-            resize_exactly(&mut self.pixels, rows * stride(n, radius));
-        }
-        if self
-            .lines
-            .first()
-            .is_none_or(|line| line.as_ref().len() != n)
-        {
-            self.lines = vec![Line::zeros(n); 11];
-        }
-    }
-}
-
-/// A vector of this length and no memory beyond it.
-fn resize_exactly(numbers: &mut Vec<f32>, n: usize) {
-    numbers.truncate(n);
-    numbers.reserve_exact(n - numbers.len());
-    numbers.resize(n, 0.0);
-}
-
-/// A few numbers more than needed: rows must not lie a power of two apart.
-fn stride(n: usize, radius: usize) -> usize {
-    n + (2 * radius).next_multiple_of(16) + 16
+    /// A few rows of pixels, and the same transposed.
+    pixels: Room,
+    turned: Room,
+    /// Pixels, or pixels smoothed along x, in strips.
+    strips: Room,
+    /// Rows that are being made into forces.
+    rows: Room,
 }
 
 /// Computes one tile and writes row `r` of it to `out[r * out_stride ..][.. width]`.
@@ -77,6 +60,8 @@ pub(super) struct Job<'a, P: Pixel> {
     pub(super) scratch: &'a mut Scratch,
     pub(super) out: &'a mut [[f32; 2]],
     pub(super) out_stride: usize,
+    /// Whether there are more forces, in all tiles, than caches hold.
+    pub(super) many: bool,
 }
 
 impl<P: Pixel> WithSimd for Job<'_, P> {
@@ -85,89 +70,85 @@ impl<P: Pixel> WithSimd for Job<'_, P> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> bool {
-        let Self {
-            plan,
-            image,
-            place,
-            scratch,
-            out,
-            out_stride,
-        } = self;
-        let n = (place.width + 4).next_multiple_of(QUANTUM);
-        scratch.fit(
-            n,
-            place.height,
-            plan.radius,
-            matches!(plan.kind, Kind::Edge { .. }),
-        );
-        let stride = stride(n, plan.radius);
-        let margin = (plan.radius + 2).cast_signed();
-        let (x, y) = (
-            place.x.cast_signed() - margin,
-            place.y.cast_signed() - margin,
-        );
-        let mut largest = 0;
-        let columns = Columns::new(x, place.width + 2 * (plan.radius + 2), image.ncols());
-        let mut rows = Rows {
-            out,
-            stride: out_stride,
-            width: place.width,
-        };
-        match &plan.kind {
-            Kind::Report { odd } => {
-                for (row, line) in (y..).zip(scratch.pixels.chunks_exact_mut(stride)) {
-                    largest = largest.max(columns.load(&image, row, line));
-                }
-                let borders = Borders::new(image.dim(), place, n);
-                report_tile(
-                    simd,
-                    odd,
-                    stride,
-                    place.height,
-                    &borders,
-                    scratch,
-                    &mut rows,
-                );
-            }
-            Kind::Edge { even_x, even_y } => {
-                let Scratch {
-                    pixels, smoothed, ..
-                } = &mut *scratch;
-                for (row, line) in (y..).zip(smoothed.chunks_exact_mut(n)) {
-                    largest = largest.max(columns.load(&image, row, pixels));
-                    filter::<S, false>(simd, pixels, plan.radius, 1, even_x, line);
-                }
-                edge_tile(simd, even_y, n, place.height, scratch, &mut rows);
+        if S::IS_SCALAR {
+            self.work::<Four, 4>(Four)
+        } else {
+            match S::F32_LANES {
+                4 => self.work::<Wide<S>, 4>(Wide(simd)),
+                8 => self.work::<Wide<S>, 8>(Wide(simd)),
+                _ => self.work::<Wide<S>, 16>(Wide(simd)),
             }
         }
-        largest > plan.largest_pixel.to_bits()
     }
 }
 
-/// Where the forces of a tile go.
-struct Rows<'a> {
-    out: &'a mut [[f32; 2]],
-    stride: usize,
-    width: usize,
-}
-
-impl Rows<'_> {
-    /// Differences along x and along y become a row of forces.
+impl<P: Pixel> Job<'_, P> {
+    /// `B` is how many numbers a vector has, for blocks of as many vectors.
     #[inline(always)]
-    fn put(&mut self, row: usize, x: &Line, [above, below]: [&Line; 2]) {
-        let out = &mut self.out[row * self.stride..][..self.width];
-        let (right, left) = (&x.shifted(3)[..self.width], &x.shifted(1)[..self.width]);
-        let (below, above) = (
-            &below.shifted(2)[..self.width],
-            &above.shifted(2)[..self.width],
-        );
-        for i in 0..self.width {
-            out[i] = [right[i] - left[i], below[i] - above[i]];
+    fn work<L: Lanes, const B: usize>(self, lanes: L) -> bool {
+        let (image, place, scratch) = (&self.image, self.place, self.scratch);
+        let put = &mut Put {
+            out: self.out,
+            stride: self.out_stride,
+            width: place.width,
+            many: self.many,
+        };
+        let largest = match &self.plan.kind {
+            Kind::Report { odd } => report_tile::<L, B, P>(lanes, odd, image, place, scratch, put),
+            Kind::Edge { even_x, even_y } => {
+                edge_tile::<L, B, P>(lanes, [even_x, even_y], image, place, scratch, put)
+            }
+        };
+        if self.many {
+            lanes.wait();
         }
+        largest > self.plan.largest_pixel.to_bits()
     }
 }
 
-/// Which rows and columns of a tile's lines lie inside the image.
+/// The sizes of a tile's buffers.
+#[derive(Debug, Clone, Copy)]
+struct Sizes {
+    /// Columns of the intermediate results.
+    n: usize,
+    /// Columns read on either side of those: the filter's reach, to the next vector.
+    margin: usize,
+    /// Rows that a group's filters see beside the group.
+    around: usize,
+    /// Rows that there is room for in a strip.
+    long: usize,
+    /// The column and the row of the mirrored image that are read first.
+    left: isize,
+    top: isize,
+}
+
+impl Sizes {
+    /// Rows are read from `early` before the reach of the first on.
+    fn new<const B: usize>(place: Place, reach: usize, early: usize) -> Self {
+        let around = 2 * (reach + SPARE);
+        // strips an odd number of lines of the cache apart
+        let per_line = CACHE_LINE / B;
+        let rows = (GROUP + around).next_multiple_of(B);
+        let lines = rows.div_ceil(per_line) | 1;
+        let margin = (reach + SPARE).next_multiple_of(B);
+        let first = |at: usize, before: usize| at.cast_signed() - 2 - before.cast_signed();
+        Self {
+            n: (place.width + 4).next_multiple_of(QUANTUM),
+            margin,
+            around,
+            long: lines * per_line,
+            left: first(place.x, margin),
+            top: first(place.y, reach + SPARE + early),
+        }
+    }
+
+    /// Columns with both margins.
+    const fn wide(&self) -> usize {
+        self.n + 2 * self.margin
+    }
+}
+
+/// Which rows and columns of a tile's rows lie inside the image.
 struct Borders {
     rows: std::ops::Range<usize>,
     columns: std::ops::Range<usize>,
@@ -187,127 +168,266 @@ impl Borders {
     /// Zeros beyond the image's left and right border.
     #[inline(always)]
     fn clear_outside(&self, line: &mut [f32]) {
-        line[..self.columns.start].fill(0.0);
-        line[self.columns.end..].fill(0.0);
+        if self.columns.start > 0 {
+            line[..self.columns.start].fill(0.0);
+        }
+        if self.columns.end < line.len() {
+            line[self.columns.end..].fill(0.0);
+        }
+    }
+}
+
+/// Lines of an image, a block of rows at a time.
+struct Reader<'a, 'b, P: Pixel> {
+    image: &'a ArrayView2<'b, P>,
+    columns: Columns,
+    /// The line of the mirrored image that comes next.
+    next: isize,
+    rows: Rows<'a>,
+    largest: u32,
+}
+
+impl<'a, 'b, P: Pixel> Reader<'a, 'b, P> {
+    fn new(image: &'a ArrayView2<'b, P>, sizes: &Sizes, room: &'a mut Room, block: usize) -> Self {
+        let wide = sizes.wide();
+        Self {
+            image,
+            columns: Columns::new(sizes.left, wide, image.ncols()),
+            next: sizes.top,
+            rows: Rows::new(room.fit(Rows::size(block, wide)), wide),
+            largest: 0,
+        }
+    }
+
+    /// The next `count` rows of the tile.
+    #[inline(always)]
+    fn read<L: Lanes>(&mut self, lanes: L, count: usize) {
+        for i in 0..count {
+            let met = self
+                .columns
+                .load(self.image, self.next, self.rows.get_mut(i));
+            self.largest = self.largest.max(met);
+            // what comes a group later is fetched meanwhile
+            let later = self.next + GROUP.cast_signed();
+            if let Some(pixels) = self.columns.inside(self.image, later) {
+                lanes.expect(pixels);
+            }
+            self.next += 1;
+        }
+    }
+
+    /// `B` of them, in vectors.
+    #[inline(always)]
+    fn rows<L: Lanes, const B: usize>(&self) -> [&[L::V]; B] {
+        let mut rows: [&[L::V]; B] = [&[]; B];
+        for (i, row) in rows.iter_mut().enumerate() {
+            *row = L::view(self.rows.get(i));
+        }
+        rows
+    }
+}
+
+/// The last rows of each strip become its first.
+#[inline(always)]
+fn move_up<V: Copy>(strips: &mut [V], sizes: &Sizes) {
+    for strip in strips.chunks_exact_mut(sizes.long) {
+        strip.copy_within(GROUP..GROUP + sizes.around, 0);
+    }
+}
+
+/// Writes vectors one below the other.
+#[inline(always)]
+fn put_block<L: Lanes, const B: usize>(out: &mut [f32], at: usize, step: usize, r: [L::V; B]) {
+    for j in 0..B {
+        let at = at + j * step;
+        L::view_mut(&mut out[at..at + B])[0] = r[j];
+    }
+}
+
+/// Filters strips down: a group of rows.
+#[inline(always)]
+fn along_y<L: Lanes, const B: usize, const ODD: bool>(
+    lanes: L,
+    strips: &[L::V],
+    sizes: &Sizes,
+    weights: &[f32],
+    (out, begin, step): (&mut [f32], usize, usize),
+) {
+    for (i, strip) in strips.chunks_exact(sizes.long).enumerate() {
+        for first in (0..GROUP).step_by(B) {
+            let window = &strip[first..first + B + sizes.around];
+            let r = slide_block::<L, B, ODD>(lanes, window, weights);
+            put_block::<L, B>(out, begin + first * step + i * B, step, r);
+        }
     }
 }
 
 /// Fx and Fy of the report's program: smoothing and first difference in one odd filter each.
 #[inline(always)]
-fn report_tile<S: Simd>(
-    simd: S,
+fn report_tile<L: Lanes, const B: usize, P: Pixel>(
+    lanes: L,
     odd: &[f32],
-    stride: usize,
-    height: usize,
-    borders: &Borders,
+    image: &ArrayView2<'_, P>,
+    place: Place,
     scratch: &mut Scratch,
-    out: &mut Rows<'_>,
-) {
-    let radius = odd.len();
-    let pixels = &scratch.pixels[..];
-    let [d0, d1, d2, a0, a1, a2, e0, e1, e2, spare, other] = &mut scratch.lines[..] else {
-        return;
-    };
-    let (mut d, mut a, mut e) = ([d0, d1, d2], [a0, a1, a2], [e0, e1, e2]);
-    for i in 0..height + 4 {
-        // x: differences of line i, magnitude of line i − 1, force of line i − 2
-        d.rotate_left(1);
-        if borders.rows.contains(&i) {
-            filter::<S, true>(
-                simd,
-                pixels,
-                (i + radius) * stride + radius,
-                1,
-                odd,
-                d[2].as_mut(),
-            );
-        } else {
-            d[2].as_mut().fill(0.0);
+    put: &mut Put<'_>,
+) -> u32 {
+    let reach = odd.len();
+    let sizes = Sizes::new::<B>(place, reach, 1);
+    let (n, wide, long) = (sizes.n, sizes.wide(), sizes.long);
+    let strips = L::view_mut(scratch.strips.fit(long * wide));
+    let turned = L::view_mut(scratch.turned.fit(wide * B));
+    let mut reader = Reader::new(image, &sizes, &mut scratch.pixels, B);
+    let borders = Borders::new(image.dim(), place, n);
+    let numbers = scratch.rows.fit(Rows::size(2 * GROUP + 4, n) + 4 * n);
+    let (x, numbers) = numbers.split_at_mut(Rows::size(GROUP, n));
+    let (y, numbers) = numbers.split_at_mut(Rows::size(GROUP, n));
+    let (b, numbers) = numbers.split_at_mut(Rows::size(1, n));
+    let (e, four) = numbers.split_at_mut(Rows::size(3, n));
+    let (mut x, mut y) = (Rows::new(x, n), Rows::new(y, n));
+    let (mut b, mut e) = (Rows::new(b, n), Rows::new(e, n));
+    let four = L::view_mut(four);
+    four.fill(lanes.splat(0.0));
+    let skip = sizes.margin - reach - SPARE;
+    for first in (0..place.height + 4).step_by(GROUP) {
+        let mut row = if first == 0 { 0 } else { sizes.around };
+        if first > 0 {
+            move_up(strips, &sizes);
         }
-        if i < 2 {
-            continue;
+        while row < GROUP + sizes.around {
+            let count = B.min(GROUP + sizes.around - row);
+            reader.read(lanes, count);
+            let rows = reader.rows::<L, B>();
+            for (at, strip) in strips.chunks_exact_mut(long).enumerate() {
+                let strip = &mut strip[row..row + B];
+                for j in 0..B {
+                    strip[j] = rows[j][at];
+                }
+            }
+            row += count;
         }
-        a.rotate_left(1);
-        if borders.rows.contains(&(i - 1)) {
-            average::<S, true>(
-                simd,
-                [d[0].as_ref(), d[1].as_ref(), d[2].as_ref()],
-                a[2].as_mut(),
-            );
-        } else {
-            a[2].as_mut().fill(0.0);
+        // x: differences d of row i, their magnitude a of row i − 1, its average of row i − 2; two of d and a are kept
+        for block in (0..GROUP).step_by(B) {
+            let from = block + reach + SPARE + 1;
+            for (strip, turned) in strips.chunks_exact(long).zip(turned.chunks_exact_mut(B)) {
+                let mut r = [lanes.splat(0.0); B];
+                r.copy_from_slice(&strip[from..from + B]);
+                lanes.turn(&mut r);
+                turned.copy_from_slice(&r);
+            }
+            let rows = first + block;
+            let inside = rows > 0
+                && borders.rows.contains(&(rows - 1))
+                && borders.rows.contains(&(rows + B - 1));
+            let (out, begin, step) = x.columns();
+            for (strip, four) in four.chunks_exact_mut(4).enumerate() {
+                let window = &turned[skip + strip * B..][..B + sizes.around];
+                let mut r = slide_block::<L, B, true>(lanes, window, odd);
+                lanes.turn(&mut r);
+                let r = if inside {
+                    magnitudes::<L, B, true>(lanes, r, four, rows, &borders)
+                } else {
+                    magnitudes::<L, B, false>(lanes, r, four, rows, &borders)
+                };
+                put_block::<L, B>(out, begin + block * step + strip * B, step, r);
+            }
         }
-        // y: the same for line i − 1, whose average runs along the line
-        filter::<S, true>(
-            simd,
-            pixels,
-            (i - 1 + radius) * stride + radius,
-            stride,
-            odd,
-            spare.as_mut(),
-        );
-        borders.clear_outside(spare.as_mut());
-        average::<S, true>(simd, neighbours(spare), other.as_mut());
-        borders.clear_outside(other.as_mut());
-        e.rotate_left(1);
-        average::<S, false>(simd, neighbours(other), e[2].as_mut());
-        if i < 4 {
-            continue;
+        // y: the same for the row before, whose average runs along it
+        let inner = &strips[sizes.margin / B * long..][..n / B * long];
+        along_y::<L, B, true>(lanes, inner, &sizes, odd, y.columns());
+        for i in 0..GROUP.min(place.height + 4 - first) {
+            let row = first + i;
+            borders.clear_outside(y.get_mut(i));
+            masks::along::<L, true>(lanes, &y, i, b.get_mut(0));
+            borders.clear_outside(b.get_mut(0));
+            masks::along::<L, false>(lanes, &b, 0, e.get_mut(row % 3));
+            if row >= 4 {
+                put.row(lanes, row - 4, (&x, i), (&e, [(row - 2) % 3, row % 3]));
+            }
         }
-        average::<S, false>(
-            simd,
-            [a[0].as_ref(), a[1].as_ref(), a[2].as_ref()],
-            spare.as_mut(),
-        );
-        out.put(i - 4, spare, [e[0], e[2]]);
     }
+    reader.largest
+}
+
+/// Averages across of magnitudes of averages across, of rows `row` to `row + B`: they are those of two rows before.
+///
+/// Differences and magnitudes beyond the image count as zeros.
+#[inline(always)]
+fn magnitudes<L: Lanes, const B: usize, const INSIDE: bool>(
+    lanes: L,
+    r: [L::V; B],
+    four: &mut [L::V],
+    row: usize,
+    borders: &Borders,
+) -> [L::V; B] {
+    let none = lanes.splat(0.0);
+    let (mut d0, mut d1, mut a0, mut a1) = (four[0], four[1], four[2], four[3]);
+    let mut out = r;
+    for j in 0..B {
+        let row = row + j;
+        let inside = INSIDE || borders.rows.contains(&row);
+        let inside_before = INSIDE || (row > 0 && borders.rows.contains(&(row - 1)));
+        let d2 = if inside { r[j] } else { none };
+        let a2 = if inside_before {
+            lanes.abs(masks::sum(lanes, d0, d1, d2))
+        } else {
+            none
+        };
+        out[j] = masks::sum(lanes, a0, a1, a2);
+        (d0, d1, a0, a1) = (d1, d2, a1, a2);
+    }
+    four.copy_from_slice(&[d0, d1, a0, a1]);
+    out
 }
 
 /// Both components of the corrected force, from lines smoothed along x: the gradient's length, its gradient.
 #[inline(always)]
-fn edge_tile<S: Simd>(
-    simd: S,
-    even_y: &[f32],
-    n: usize,
-    height: usize,
+fn edge_tile<L: Lanes, const B: usize, P: Pixel>(
+    lanes: L,
+    [even_x, even_y]: [&[f32]; 2],
+    image: &ArrayView2<'_, P>,
+    place: Place,
     scratch: &mut Scratch,
-    out: &mut Rows<'_>,
-) {
-    let radius = even_y.len() - 1;
-    let Scratch {
-        smoothed, lines, ..
-    } = scratch;
-    let [s0, s1, s2, p0, p1, p2, down, above, below, gx, gy] = &mut lines[..] else {
-        return;
-    };
-    let (mut s, mut p) = ([s0, s1, s2], [p0, p1, p2]);
-    for i in 0..height + 4 {
-        s.rotate_left(1);
-        filter::<S, false>(simd, smoothed, (i + radius) * n, n, even_y, s[2].as_mut());
-        if i < 2 {
-            continue;
+    put: &mut Put<'_>,
+) -> u32 {
+    let reach = even_x.len() - 1;
+    let sizes = Sizes::new::<B>(place, reach, 0);
+    let (n, wide, long) = (sizes.n, sizes.wide(), sizes.long);
+    let strips = L::view_mut(scratch.strips.fit(long * n));
+    let turned = L::view_mut(scratch.turned.fit(wide * B));
+    let mut reader = Reader::new(image, &sizes, &mut scratch.pixels, B);
+    let mut smooth = Gradients::new(scratch.rows.fit(Gradients::size(GROUP, n)), GROUP, n);
+    let skip = sizes.margin - reach - SPARE;
+    for first in (0..place.height + 4).step_by(GROUP) {
+        let mut row = if first == 0 { 0 } else { sizes.around };
+        if first > 0 {
+            move_up(strips, &sizes);
         }
-        p.rotate_left(1);
-        averages(simd, &s, [&mut *down, &mut *above, &mut *below]);
-        subtract(simd, down.shifted(1), down.shifted(-1), gx.as_mut());
-        subtract(simd, below.as_ref(), above.as_ref(), gy.as_mut());
-        length(simd, gx.as_ref(), gy.as_ref(), p[2].as_mut());
-        if i < 4 {
-            continue;
+        while row < GROUP + sizes.around {
+            let count = B.min(GROUP + sizes.around - row);
+            reader.read(lanes, count);
+            let rows = reader.rows::<L, B>();
+            for (at, turned) in turned.chunks_exact_mut(B).enumerate() {
+                let mut r = [lanes.splat(0.0); B];
+                for j in 0..B {
+                    r[j] = rows[j][at];
+                }
+                lanes.turn(&mut r);
+                turned.copy_from_slice(&r);
+            }
+            for (at, strip) in strips.chunks_exact_mut(long).enumerate() {
+                let window = &turned[skip + at * B..][..B + sizes.around];
+                let mut r = slide_block::<L, B, false>(lanes, window, even_x);
+                lanes.turn(&mut r);
+                strip[row..row + B].copy_from_slice(&r);
+            }
+            row += count;
         }
-        averages(simd, &p, [&mut *down, &mut *above, &mut *below]);
-        out.put(i - 4, down, [above, below]);
+        along_y::<L, B, false>(lanes, strips, &sizes, even_y, smooth.rows());
+        for i in 0..GROUP.min(place.height + 4 - first) {
+            smooth.put(lanes, i, first + i, put);
+        }
+        smooth.next(GROUP);
     }
-}
-
-/// What the report's two masks take differences of: three lines averaged down, the outer two along.
-#[inline(always)]
-fn averages<S: Simd>(simd: S, s: &[&mut Line; 3], [down, above, below]: [&mut Line; 3]) {
-    average::<S, false>(
-        simd,
-        [s[0].as_ref(), s[1].as_ref(), s[2].as_ref()],
-        down.as_mut(),
-    );
-    average::<S, false>(simd, neighbours(s[0]), above.as_mut());
-    average::<S, false>(simd, neighbours(s[2]), below.as_mut());
+    reader.largest
 }

@@ -183,7 +183,7 @@ pub(crate) fn sample_flat<F: Kept>(
     rule: Interpolation,
     forces: &mut [DVec2],
 ) {
-    let arch = pulp::Arch::new();
+    let arch = lanes::registers();
     if field.dim.0.min(field.dim.1) < 2 {
         for (&p, force) in points.iter().zip(forces) {
             *force = one(field, p, rule);
@@ -211,7 +211,7 @@ pub(crate) fn sample_flat_with_slope<F: Kept>(
     forces: &mut [DVec2],
     slopes: &mut [DMat2],
 ) {
-    let arch = pulp::Arch::new();
+    let arch = lanes::registers();
     if field.dim.0.min(field.dim.1) < 2 {
         for ((&p, force), slope) in points.iter().zip(forces).zip(slopes) {
             (*force, *slope) = one_with_slope(field, p, rule);

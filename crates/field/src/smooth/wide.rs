@@ -9,10 +9,11 @@
 //! The filter h is found from the transfer functions: T of the smoothing asked for (a Gaussian, or cos²ᵖ of so many
 //! passes), divided by that of both windows as they stand, sampled and cut. So all that is lost is what the
 //! thinning folds over: a wave of amplitude 1 is off by at most 1e-6, and a picture by far less, since most of it
-//! is no such wave. Beyond the border the lines are the image's mirror, as everywhere here.
+//! is no such wave. The sums are in `f32`, in parts of 16 terms, which adds a few of its roundings. Beyond the border the lines are the image's mirror, as everywhere here.
 
 use super::Smoothing;
-use crate::grid::{Grid, mirrored};
+use crate::grid::mirrored;
+use pulp::{Simd, WithSimd};
 use std::f64::consts::PI;
 
 /// Reach of the window in units of its σ: what is cut off is 2e-8 of its middle, and h makes up for it.
@@ -21,8 +22,14 @@ const REACH: usize = 6;
 /// Reach of h in thin lines; it falls off as a Gaussian of at most 2 lines.
 const THIN_REACH: usize = 16;
 
-/// Columns worked on at once: the sums stay in the first cache.
-const COLUMNS: usize = 512;
+/// Terms that are summed before the sum is added to the others': a sum of a thousand would lose digits.
+const PART: usize = 16;
+
+/// Vectors of columns worked on at once: their sums stay in registers.
+const COLUMNS: usize = 4;
+
+/// What a line is made of: weights of lines, and which.
+type Terms = Vec<(f32, usize)>;
 
 /// A wide smoothing along one axis.
 #[derive(Debug, Clone)]
@@ -76,46 +83,52 @@ impl Wide {
         Self { step, window, thin }
     }
 
-    /// Smooths every column.
+    /// Smooths every column of a picture of rows of `width`.
     ///
-    /// About 25 multiplications a pixel, whatever σ; memory is two grids and the thin lines.
-    pub(crate) fn along_y(&self, image: &Grid) -> Grid {
-        let (height, width) = image.dim();
-        let Some(&level) = image.first() else {
-            return image.clone();
+    /// About 25 multiplications a pixel, whatever σ; memory is two pictures and the thin lines.
+    pub(crate) fn along_y(&self, picture: &[f32], width: usize) -> Vec<f32> {
+        let Some(&level) = picture.first() else {
+            return Vec::new();
         };
+        let height = picture.len() / width;
         // about the first pixel: a constant picture stays one to the last bit
-        let pixels: Vec<f64> = image.iter().map(|v| v - level).collect();
+        let pixels: Vec<f32> = picture.iter().map(|v| v - level).collect();
         let reach = self.window.len() - 1;
         // thin lines that some line needs, and as many more as h reaches
         let after = REACH + (height - 1) / self.step + 1;
         let count = REACH + after + 1;
-        let mut thin = vec![0.0; (count + 2 * THIN_REACH) * width];
         let mut weights = vec![0.0; height];
-        for (j, line) in thin.chunks_exact_mut(width).enumerate() {
+        let mut thinned = |j: usize| -> Terms {
             let center =
                 (j * self.step).cast_signed() - ((REACH + THIN_REACH) * self.step).cast_signed();
             weights.fill(0.0);
-            for k in 0..=2 * reach {
-                let row = mirrored(center + k.cast_signed() - reach.cast_signed(), height);
+            let rows = (0..=2 * reach).map(|k| {
+                (
+                    k,
+                    mirrored(center + k.cast_signed() - reach.cast_signed(), height),
+                )
+            });
+            let (mut first, mut last) = (height, 0);
+            for (k, row) in rows {
                 weights[row] += self.window[k.abs_diff(reach)];
+                (first, last) = (first.min(row), last.max(row));
             }
-            let terms: Vec<(f64, usize)> = (weights.iter().copied().zip(0..))
-                .filter(|&(w, _)| w > 0.0)
-                .collect();
-            combine(&terms, &pixels, width, line);
-        }
-        let mut smooth = vec![0.0; count * width];
-        for (j, line) in smooth.chunks_exact_mut(width).enumerate() {
-            let terms: Vec<(f64, usize)> = (0..=2 * THIN_REACH)
-                .map(|m| (self.thin[m.abs_diff(THIN_REACH)], j + m))
-                .collect();
-            combine(&terms, &thin, width, line);
-        }
-        let mut out = vec![0.0; height * width];
-        for (i, line) in out.chunks_exact_mut(width).enumerate() {
-            let mut terms: Vec<(f64, usize)> = (0..count)
-                .skip(i / self.step)
+            let used = weights[first..=last].iter().zip(first..);
+            used.filter(|(w, _)| **w > 0.0)
+                .map(|(&w, row)| (narrow(w), row))
+                .collect()
+        };
+        let thin: Vec<Terms> = (0..count + 2 * THIN_REACH).map(&mut thinned).collect();
+        let thin = combine(&thin, &pixels, width);
+        let smooth = |j: usize| -> Terms {
+            (0..=2 * THIN_REACH)
+                .map(|m| (narrow(self.thin[m.abs_diff(THIN_REACH)]), j + m))
+                .collect()
+        };
+        let smooth: Vec<Terms> = (0..count).map(smooth).collect();
+        let smooth = combine(&smooth, &thin, width);
+        let filled = |i: usize| -> Terms {
+            let terms: Vec<(f64, usize)> = (i / self.step..count)
                 .take(2 * REACH + 2)
                 .filter_map(|j| {
                     let distance = (i + REACH * self.step).abs_diff(j * self.step);
@@ -123,21 +136,47 @@ impl Wide {
                 })
                 .collect();
             let sum: f64 = terms.iter().map(|(w, _)| w).sum();
-            terms.iter_mut().for_each(|(w, _)| *w /= sum);
-            combine(&terms, &smooth, width, line);
-            line.iter_mut().for_each(|v| *v += level);
-        }
-        Grid::from_shape_vec((height, width), out).unwrap_or_else(|_| image.clone())
+            terms.iter().map(|&(w, j)| (narrow(w / sum), j)).collect()
+        };
+        let filled: Vec<Terms> = (0..height).map(filled).collect();
+        let mut out = combine(&filled, &smooth, width);
+        out.iter_mut().for_each(|v| *v += level);
+        out
     }
 
-    /// Smooths every row.
-    pub(crate) fn along_x(&self, image: &Grid) -> Grid {
-        let turned = image.t().as_standard_layout().into_owned();
-        self.along_y(&turned)
-            .reversed_axes()
-            .as_standard_layout()
-            .into_owned()
+    /// Smooths every row of a picture of rows of `width`.
+    pub(crate) fn along_x(&self, picture: &[f32], width: usize) -> Vec<f32> {
+        let height = picture.len() / width;
+        let turned = self.along_y(&turned(picture, width), height);
+        self::turned(&turned, height)
     }
+}
+
+/// Rows of `width` become columns.
+fn turned(picture: &[f32], width: usize) -> Vec<f32> {
+    const BLOCK: usize = 16;
+    let height = picture.len() / width;
+    let mut out = vec![0.0; picture.len()];
+    for y in (0..height).step_by(BLOCK) {
+        let rows = BLOCK.min(height - y);
+        for x in (0..width).step_by(BLOCK) {
+            for column in x..width.min(x + BLOCK) {
+                let to = &mut out[column * height + y..][..rows];
+                for (row, to) in to.iter_mut().enumerate() {
+                    *to = picture[(y + row) * width + column];
+                }
+            }
+        }
+    }
+    out
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounding to f32 is the point"
+)]
+fn narrow(weight: f64) -> f32 {
+    weight as f32
 }
 
 /// Transfer function of a smoothing at a frequency of `omega` per pixel.
@@ -148,32 +187,93 @@ fn wanted(smoothing: Smoothing, omega: f64) -> f64 {
     }
 }
 
-/// `out = Σ weight · row`, columns in blocks, four rows at a time.
-fn combine(terms: &[(f64, usize)], rows: &[f64], width: usize, out: &mut [f64]) {
-    out.fill(0.0);
-    pulp::Arch::new().dispatch(|| {
-        for (block, out) in out.chunks_mut(COLUMNS).enumerate() {
-            let n = out.len();
-            let row = |i: usize| &rows[i * width + block * COLUMNS..][..n];
-            let (fours, rest) = terms.as_chunks::<4>();
-            for &[(wa, a), (wb, b), (wc, c), (wd, d)] in fours {
-                let (a, b, c, d) = (row(a), row(b), row(c), row(d));
-                for i in 0..n {
-                    out[i] += (wa * a[i] + wb * b[i]) + (wc * c[i] + wd * d[i]);
+/// Lines that are sums of weighted rows.
+fn combine(lines: &[Terms], rows: &[f32], width: usize) -> Vec<f32> {
+    let mut out = vec![0.0; lines.len() * width];
+    lanes::registers().dispatch(Combine {
+        lines,
+        rows,
+        width,
+        out: &mut out,
+    });
+    out
+}
+
+struct Combine<'a> {
+    lines: &'a [Terms],
+    rows: &'a [f32],
+    width: usize,
+    out: &'a mut [f32],
+}
+
+impl WithSimd for Combine<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self {
+            lines,
+            rows,
+            width,
+            out,
+        } = self;
+        // a block of columns of all lines at a time: the rows of one stay in the cache for the next
+        let block = COLUMNS * S::F32_LANES;
+        let mut at = 0;
+        while at + block <= width {
+            for (line, terms) in lines.iter().enumerate() {
+                let mut sums = [simd.splat_f32s(0.0); COLUMNS];
+                for terms in terms.chunks(PART) {
+                    let mut part = [simd.splat_f32s(0.0); COLUMNS];
+                    for &(w, row) in terms {
+                        let w = simd.splat_f32s(w);
+                        let row = &rows[row * width + at..][..block];
+                        let row = &S::as_simd_f32s(row).0[..COLUMNS];
+                        for u in 0..COLUMNS {
+                            part[u] = simd.add_f32s(part[u], simd.mul_f32s(w, row[u]));
+                        }
+                    }
+                    for u in 0..COLUMNS {
+                        sums[u] = simd.add_f32s(sums[u], part[u]);
+                    }
                 }
+                let out = &mut out[line * width + at..][..block];
+                S::as_mut_simd_f32s(out).0.copy_from_slice(&sums);
             }
-            for &(w, a) in rest {
-                for (sum, a) in out.iter_mut().zip(row(a)) {
-                    *sum += w * a;
-                }
+            at += block;
+        }
+        for column in at..width {
+            for (line, terms) in lines.iter().enumerate() {
+                let parts = terms.chunks(PART).map(|terms| {
+                    terms
+                        .iter()
+                        .fold(0.0, |sum, &(w, row)| sum + w * rows[row * width + column])
+                });
+                out[line * width + column] = parts.fold(0.0, |sum, part: f32| sum + part);
             }
         }
-    });
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Grid;
+
+    /// By way of `f32`.
+    fn along_y(wide: &Wide, image: &Grid) -> Grid {
+        let pixels: Vec<f32> = image.iter().map(|&v| narrow(v)).collect();
+        let smooth = wide.along_y(&pixels, image.ncols());
+        let smooth = smooth.into_iter().map(f64::from).collect();
+        Grid::from_shape_vec(image.dim(), smooth).unwrap()
+    }
+
+    fn along_x(wide: &Wide, image: &Grid) -> Grid {
+        let pixels: Vec<f32> = image.iter().map(|&v| narrow(v)).collect();
+        let smooth = wide.along_x(&pixels, image.ncols());
+        let smooth = smooth.into_iter().map(f64::from).collect();
+        Grid::from_shape_vec(image.dim(), smooth).unwrap()
+    }
 
     fn noise(height: usize, width: usize) -> Grid {
         let mut state = 0x9e37_79b9_u32;
@@ -208,7 +308,7 @@ mod tests {
             ] {
                 let wide = Wide::new(smoothing);
                 for image in [&noise, &edge] {
-                    let by_wide = wide.along_y(&wide.along_x(image));
+                    let by_wide = along_y(&wide, &along_x(&wide, image));
                     let error = largest_difference(&by_wide, &smoothing.apply(image)) / 255.0;
                     assert!(error < 1e-6, "{height} × {width}, {smoothing:?}: {error:e}");
                 }
@@ -226,16 +326,16 @@ mod tests {
             let wave = |y: usize| (PI * half_waves as f64 * (y as f64 + 0.5) / n as f64).cos();
             let image = Grid::from_shape_fn((n, 1), |(y, _)| wave(y));
             let direct = wanted(smoothing, PI * half_waves as f64 / n as f64);
-            let error = largest_difference(&wide.along_y(&image), &(&image * direct));
+            let error = largest_difference(&along_y(&wide, &image), &(&image * direct));
             assert!(error < 1e-6, "{half_waves} half waves: {error:e}");
         }
     }
 
     #[test]
     fn a_constant_picture_stays_itself_to_the_last_bit() {
-        let image = Grid::from_elem((70, 50), 0.1);
+        let image = Grid::from_elem((70, 50), f64::from(0.1_f32));
         let wide = Wide::new(Smoothing::Gaussian(33.0));
-        let smoothed = wide.along_y(&wide.along_x(&image));
-        assert!(smoothed == Grid::from_elem((70, 50), 0.1));
+        let smoothed = along_y(&wide, &along_x(&wide, &image));
+        assert!(smoothed == image);
     }
 }

@@ -3,6 +3,7 @@
 use elastic::Topology;
 use glam::DVec2;
 use integrator::{State, System};
+use lanes::{flat, wide};
 
 use crate::outcome::FAR;
 use crate::rest::{Verdict, Watch};
@@ -81,12 +82,21 @@ pub(super) fn lightest(snake: &Snake) -> f64 {
 /// The first node that is no longer anywhere.
 pub(super) fn astray(x: &[DVec2]) -> Option<usize> {
     let here = |x: &DVec2| (x.x.abs() < FAR) & (x.y.abs() < FAR);
-    // no early way out: one comparison a number
-    let all = x.iter().fold(true, |all, x| all & here(x));
-    if all {
+    if all_near(flat(x)) {
         None
     } else {
         x.iter().position(|x| !here(x))
+    }
+}
+
+wide! {
+    /// Whether all numbers are below [`FAR`] in size. No early way out: one comparison a number.
+    fn all_near(numbers: &[f64]) -> bool {
+        let mut near = 1_u64;
+        for number in numbers {
+            near &= u64::from(number.abs() < FAR);
+        }
+        near == 1
     }
 }
 
