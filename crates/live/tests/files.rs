@@ -15,7 +15,7 @@ fn disc(x: f64, y: f64) -> Array2<f64> {
 }
 
 fn stack(grids: &[Array2<f64>]) -> Vec<u8> {
-    io::float_tiff(&grids.iter().collect::<Vec<_>>()).unwrap()
+    io::numbers::float_tiff(&grids.iter().collect::<Vec<_>>()).unwrap()
 }
 
 fn open(name: &str, frame: bool) -> Action {
