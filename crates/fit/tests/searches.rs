@@ -319,3 +319,37 @@ fn a_click_finds_the_whole_of_an_ellipse() {
         );
     }
 }
+
+#[test]
+fn a_click_on_one_of_many_discs_finds_that_disc_or_is_unsure() {
+    let radius = 9.0;
+    let at = |i: u32, j: u32| DVec2::new(25.0 + 24.0 * f64::from(i), 20.0 + 24.0 * f64::from(j));
+    let inside = |p: DVec2| (0..25).any(|k| p.distance(at(k % 5, k / 5)) < radius);
+    let image = Image::grey(common::drawn((140, 130), inside));
+    let truth = std::f64::consts::PI * radius * radius;
+    let clicks = [
+        (0.0, 0.0),
+        (2.0, 1.0),
+        (-2.0, -2.0),
+        (2.0, -2.0),
+        (-3.0, 2.0),
+        (3.0, 0.0),
+        (0.0, -4.0),
+    ];
+    let mut right = 0;
+    for (x, y) in clicks {
+        let start = Contour {
+            points: vec![at(2, 2) + DVec2::new(x, y)],
+            closed: true,
+        };
+        let found = fit(&image, &start, &Options::default()).unwrap();
+        let area = elastic::signed_area(&found.contour.points).abs();
+        let good = (area / truth - 1.0).abs() < 0.02;
+        assert!(
+            good || !found.is_outline(),
+            "{x} {y}: {area} of {truth}, and sure"
+        );
+        right += u32::from(good && found.is_outline());
+    }
+    assert!(right >= 5, "{right} of {}", clicks.len());
+}

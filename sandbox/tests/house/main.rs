@@ -96,7 +96,11 @@ const DOORS: [(&str, &[&str]); 44] = [
     ("getrandom", &["cli", "py"]),
     ("open", &["cli"]),
     ("tungstenite", &["cli: test"]),
-    ("rustix", &["cli", "benches: test"]),
+    ("rustix", &["cli", "py", "benches: test"]),
+    ("bytes", &["py"]), // the next ones for their features only
+    ("getrandom-older", &["py"]),
+    ("libc", &["py"]),
+    ("serde_core", &["py"]),
     ("plotters", &["sandbox"]),
     ("gif", &["io", "sandbox"]),
     ("glob", &["cli"]),
