@@ -1,5 +1,6 @@
 //! Drawn images whose outlines are known.
 #![allow(dead_code, reason = "each test file uses its part")]
+#![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
 
 use fit::force::Computing;
 use fit::{Contour, Fit, Image, Options, fit};

@@ -1,4 +1,5 @@
 //! A body that spins, for the tests of frames that turn.
+#![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
 
 use elastic::{Material, Motion, Profile, Topology};
 use glam::DVec2;

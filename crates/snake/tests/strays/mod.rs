@@ -1,4 +1,5 @@
 //! How far an account strays in a run.
+#![allow(clippy::unwrap_used, reason = "a test: a broken set-up should stop it")]
 
 use integrator::{Scheme, Start, State};
 use snake::{Energies, Ledger, Snake};
