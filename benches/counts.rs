@@ -1,4 +1,5 @@
 //! Instructions of the inner loops, counted by callgrind and held against pinned numbers.
+//! Long because each kernel is a case of its own with its set-up beside it.
 //!
 //! Times depend on what else runs on the machine, instructions do not. `cargo run --release -p benches --example
 //! counts` runs each kernel under valgrind, takes off what setting it up costs, and compares with

@@ -1,4 +1,5 @@
 //! The text of a scene as a value: read, changed key by key, built and written.
+//! Long because each of these is shown by an example that is a test.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write as _};

@@ -1,4 +1,5 @@
 //! Whether a snake is at rest, and if it never will be, why.
+//! Long because the three tests below share what they have seen of a run.
 //!
 //! A test on pixels per step calls anything at rest that moves slowly enough or whose step is small
 //! enough. Here three things must hold together, and each is a ratio, so that neither the number of

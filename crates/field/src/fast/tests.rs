@@ -1,3 +1,6 @@
+//! Fast fields against slow ones.
+//! Long because every way through the tiles is held against the same slow sums.
+
 use super::*;
 use crate::{Grid, Interpolation, edge_force, report_force};
 use glam::{DMat2, DVec2};

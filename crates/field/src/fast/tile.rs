@@ -1,11 +1,12 @@
 //! One tile of a field, from pixels to forces, without leaving the cache.
+//! Long because its passes share one room and one order of rows.
 //!
 //! A tile of w × h forces works on rows of w + 4 numbers, two more at either end because two masks follow each
-//! other, and reads a margin around those as wide as its filters reach. It goes down the tile, a group of rows at a time. Pixels
-//! of as many rows as the filters see are kept in strips, as wide as a register, so that a filter down the tile reads
-//! one vector after the other; a filter along the rows does the same once blocks of N × N numbers are transposed. What
-//! lies beyond the image comes out right by itself where the image is mirrored; where the report's program pads with
-//! zeros, zeros are written.
+//! other, and reads a margin around those as wide as its filters reach. It goes down the tile, a group of rows at a
+//! time. Pixels of as many rows as the filters see are kept in strips, as wide as a register, so that a filter down
+//! the tile reads one vector after the other; a filter along the rows does the same once blocks of N × N numbers are
+//! transposed. What lies beyond the image comes out right by itself where the image is mirrored; where the report's
+//! program pads with zeros, zeros are written.
 
 use super::masks::{self, Gradients, Put};
 use super::pixel::{Columns, Pixel};
