@@ -214,7 +214,7 @@ fn a_zip_that_inflates_too_far_is_refused_and_names_in_it_are_only_names() {
     let ring = vec![DVec2::ZERO, DVec2::new(5.0, 0.0), DVec2::new(0.0, 5.0)];
     let roi = write(
         &[Shape::curve(ring, Some(true))],
-        Format::ImageJ,
+        Format::Roi,
         &Context::default(),
     )
     .unwrap();
