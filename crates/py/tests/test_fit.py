@@ -192,7 +192,7 @@ def test_a_panic_is_an_exception_that_says_where():
 
 
 STOPPED = """
-import numpy as np, pysnakes, sys
+import numpy as np, pysnakes, signal, sys
 from pysnakes import _core
 image = 128 + 60 * np.sin(np.arange(700)[:, None] * 0.11) * np.sin(np.arange(700) * 0.13)
 starts = [pysnakes.circle(350, 350, 100 + i % 50) for i in range(100000)]
@@ -205,6 +205,8 @@ work = {
     "classic": lambda: pysnakes.active_contour(
         image, pysnakes.circle(350, 350, 300)[:, ::-1], convergence=0, max_num_iter=10**9),
 }[sys.argv[1]]
+# what was begun in the background by a shell is deaf to it
+signal.signal(signal.SIGINT, signal.default_int_handler)
 print("ready", flush=True)
 try:
     work()
