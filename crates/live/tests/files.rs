@@ -101,8 +101,28 @@ fn all_objects_are_found_once() {
 
 #[test]
 fn a_scene_brings_the_files_that_it_names() {
-    let text = "title = \"a ring from a file\"\n[snake]\nnodes = 24\nstart = { file = \"own/ring.csv\" }\n\
-        [material]\ntether = 0.0\ntension = 1.0\nrigidity = 1.0\n[run]\ndt = 0.01\nsteps = 10\n";
+    let text = r#"
+title = "a ring from a file"
+rules = { all = "report", spacing = "corrected" }
+
+[snake]
+nodes = 24
+topology = "closed"
+start = { file = "own/ring.csv" }
+
+[material]
+tether = 1.0
+tension = 4.0
+rigidity = 0.5
+
+[densities]
+mass = 1.0
+damping = 0.3
+
+[run]
+dt = 0.01
+steps = 400
+"#;
     let ring = b"x,y\n4,8\n6,8\n6,9\n4,9\n";
     let scene = |length: usize, files: bool| Action::Scene {
         name: "own".to_owned(),
