@@ -6,22 +6,8 @@
     reason = "a test: small whole numbers"
 )]
 
-use crate::common;
-
 use crate::common::Folder;
-
-/// A bright disc in a grey picture, as PGM; without contrast nothing is found.
-fn disc(contrast: f64) -> Vec<u8> {
-    let mut text = b"P5\n64 48\n255\n".to_vec();
-    for y in 0..48 {
-        for x in 0..64 {
-            let inside = 12.5 - (f64::from(x) - 30.0).hypot(f64::from(y) - 24.0);
-            let level = 60.0 + contrast * inside.clamp(0.0, 1.0);
-            text.push(common::fits::byte(level));
-        }
-    }
-    text
-}
+use crate::common::fits::small_disc;
 
 const START: [&str; 2] = ["--from", "circle:30,24,15"];
 
@@ -34,7 +20,7 @@ fn pictures() -> Folder {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("in")).unwrap();
     for (name, contrast) in [("a", 120.0), ("b", 110.0), ("c", 0.0), ("d", 100.0)] {
-        folder.write(&format!("in/{name}.pgm"), disc(contrast));
+        folder.write(&format!("in/{name}.pgm"), small_disc(contrast));
     }
     folder
 }
@@ -201,7 +187,7 @@ fn a_table_goes_to_standard_output_as_for_one_picture() {
 fn hidden_files_are_no_pictures_of_a_folder_or_a_pattern() {
     let folder = pictures();
     folder.write("in/._a.pgm", "no picture");
-    folder.write("in/.b.pgm", disc(120.0));
+    folder.write("in/.b.pgm", small_disc(120.0));
     for images in ["in", "in/*.pgm", "./in/*.pgm", "in/*"] {
         let args = [&["fit", images, "--out-dir", "out"], &START[..]].concat();
         let answer = folder.snake(&args);
@@ -272,7 +258,7 @@ fn stack(contrasts: &[f64]) -> Vec<u8> {
         }
         let last = index + 1 == contrasts.len();
         bytes.extend(if last { 0 } else { next }.to_le_bytes());
-        bytes.extend(&disc(*contrast)[b"P5\n64 48\n255\n".len()..]);
+        bytes.extend(&small_disc(*contrast)[b"P5\n64 48\n255\n".len()..]);
     }
     bytes
 }
@@ -282,7 +268,7 @@ fn each_page_of_a_stack_is_a_picture_of_its_own() {
     let folder = Folder::new();
     let contrasts: Vec<f64> = (0..11).map(|page| 80.0 + 10.0 * f64::from(page)).collect();
     folder.write("s.tif", stack(&contrasts));
-    folder.write("one.pgm", disc(100.0));
+    folder.write("one.pgm", small_disc(100.0));
     let args = [
         "fit",
         "s.tif",

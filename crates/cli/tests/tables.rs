@@ -6,29 +6,17 @@
     reason = "a test: small whole numbers"
 )]
 
-use crate::common::{self, Folder};
+use crate::common::Folder;
+use crate::common::fits::small_disc;
 use glam::DVec2;
 use store::{Results, Row};
-
-/// A bright disc in a grey picture, as PGM; without contrast nothing is found.
-fn disc(contrast: f64) -> Vec<u8> {
-    let mut text = b"P5\n64 48\n255\n".to_vec();
-    for y in 0..48 {
-        for x in 0..64 {
-            let inside = 12.5 - (f64::from(x) - 30.0).hypot(f64::from(y) - 24.0);
-            let level = 60.0 + contrast * inside.clamp(0.0, 1.0);
-            text.push(common::fits::byte(level));
-        }
-    }
-    text
-}
 
 /// Pictures a to d, of which c is blank and d is none.
 fn pictures() -> Folder {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("in")).unwrap();
     for (name, contrast) in [("a", 120.0), ("b", 110.0), ("c", 0.0)] {
-        folder.write(&format!("in/{name}.pgm"), disc(contrast));
+        folder.write(&format!("in/{name}.pgm"), small_disc(contrast));
     }
     folder.write("in/d.pgm", b"P5\n64 48\n255\n and no more");
     folder

@@ -6,7 +6,7 @@ use live::{Action, Body, Drawn, Engine, Outline};
 use proptest::prelude::*;
 
 /// A scene small enough for thousands of runs.
-const SCENE: &str = r#"
+pub(crate) const SCENE: &str = r#"
 title = "Two rings"
 rules = { all = "report", spacing = "corrected" }
 

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may stop the process")]
 
+use crate::chance::SCENE;
 use live::{Action, Engine, Frames, Outline, Packet, Session};
 use ndarray::Array2;
 use serde_json::{Value, json};
@@ -101,32 +102,12 @@ fn all_objects_are_found_once() {
 
 #[test]
 fn a_scene_brings_the_files_that_it_names() {
-    let text = r#"
-title = "a ring from a file"
-rules = { all = "report", spacing = "corrected" }
-
-[snake]
-nodes = 24
-topology = "closed"
-start = { file = "own/ring.csv" }
-
-[material]
-tether = 1.0
-tension = 4.0
-rigidity = 0.5
-
-[densities]
-mass = 1.0
-damping = 0.3
-
-[run]
-dt = 0.01
-steps = 400
-"#;
+    let circle = "start = { circle = { center = [2.0, 3.0], radius = 1.0 } }";
+    let text = SCENE.replace(circle, "start = { file = \"own/ring.csv\" }");
     let ring = b"x,y\n4,8\n6,8\n6,9\n4,9\n";
     let scene = |length: usize, files: bool| Action::Scene {
         name: "own".to_owned(),
-        text: Some(text.to_owned()),
+        text: Some(text.clone()),
         files: if files {
             vec![("own/ring.csv".to_owned(), length)]
         } else {
@@ -135,7 +116,7 @@ steps = 400
     };
     let mut engine = Engine::new();
     engine.perform(&scene(ring.len(), true), ring).unwrap();
-    assert_eq!(engine.shapes()[0].first().len(), 24);
+    assert_eq!(engine.shapes()[0].first().len(), 12);
     replays(&engine);
     let before = engine.bytes();
     for (action, bytes, says) in [

@@ -41,8 +41,8 @@ fn lent<T: Element, D: Dimension>(array: &PyReadonlyArray<'_, T, D>) -> ArrayVie
         unsafe_code,
         reason = "the array is kept alive by the owner beside the view"
     )]
-    // SAFETY: `Lent`, and `active_contour` for as long as it runs, keep a reference to the array, which numpy does not resize while
-    // it has more than one; the package passes aligned arrays with strides of whole items only
+    // SAFETY: `Lent`, and `active_contour` for as long as it runs, keep a reference to the array, which numpy does not
+    // resize while it has more than one; the package passes aligned arrays with strides of whole items only
     unsafe {
         array.as_array().raw_view().deref_into_view()
     }

@@ -67,8 +67,8 @@ struct Helper {
     process: u32,
 }
 
-/// Do work on a helper thread while this one looks after Python's signals. When the user stops it, the flag is set, which
-/// fits and simulations look at; other work is left to end by itself.
+/// Do work on a helper thread while this one looks after Python's signals. When the user stops it, the flag is set,
+/// which fits and simulations look at; other work is left to end by itself.
 pub(crate) fn attended<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&AtomicBool) -> T + Send + 'static,

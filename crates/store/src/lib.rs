@@ -3,7 +3,8 @@
 //!
 //! A row is an outline. What a picture gave is one file, written whole or not at all under a name made from the
 //! picture's, so that a run that was killed goes on where it was, whichever program began it: the command `snake fit`
-//! and the Python package `pysnakes` write the same bytes. Parts may be joined into `joined.parquet`; what that holds is finished too.
+//! and the Python package `pysnakes` write the same bytes. Parts may be joined into `joined.parquet`; what that holds
+//! is finished too.
 //!
 //! ```
 //! use glam::DVec2;

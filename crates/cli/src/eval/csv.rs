@@ -71,18 +71,10 @@ fn rows(text: &str) -> Vec<(usize, Vec<String>)> {
     rows
 }
 
-/// A value as a table holds it.
-pub(super) fn quoted(value: &str) -> String {
-    if value.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", value.replace('"', "\"\""))
-    } else {
-        value.to_owned()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use score::table::quoted;
 
     #[test]
     fn quotes_hold_commas_quotes_and_lines() {

@@ -9,12 +9,12 @@ use score::{Instances, THRESHOLDS, border};
 use serde_json::{Value, json};
 
 use super::clock::Clock;
-use super::csv::quoted;
 use super::flags::SeedKind;
 use super::rows::Way;
 use super::set::Case;
 use super::sheet::{FOUND, TRUTH};
 use super::table::mean;
+use score::table::quoted;
 
 /// The longer side of a picture that is drawn, at least.
 const SIDE: f64 = 900.0;

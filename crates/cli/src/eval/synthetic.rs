@@ -8,9 +8,9 @@ use score::synthetic::{Case, cases, series};
 use score::{Agreement, Deviation};
 use serde_json::{Value, json};
 
-use super::csv::quoted;
 use super::rows::{Ending, Fits, TOLERANCE, Way, band};
 use super::table::{mean, median, shown};
+use score::table::quoted;
 
 /// Seeds of the noise.
 const SEEDS: u64 = 3;

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use super::csv::quoted;
 use super::rows::{Ending, Row};
+use score::table::quoted;
 
 /// So much less `IoU` than its start's is a loss.
 const LOSS: f64 = 0.02;

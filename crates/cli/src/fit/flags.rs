@@ -51,8 +51,8 @@ pub(crate) struct Flags {
     #[arg(long, value_name = "DIR")]
     pub out_dir: Option<PathBuf>,
     /// Formats to write: csv, geojson, coco, imagej, svg, labelme, mask, labels, deep-labels, and of --out-dir overlay,
-    /// animation, and parquet (a file for each picture, together one table for pandas, `DuckDB`, QGIS and `pysnakes`); of
-    /// --out one, of --out-dir several with commas between them.
+    /// animation, and parquet (a file for each picture, together one table for pandas, `DuckDB`, QGIS and `pysnakes`);
+    /// of --out one, of --out-dir several with commas between them.
     #[arg(long = "as", value_name = "FORMATS", value_delimiter = ',')]
     pub formats: Vec<String>,
     /// Write a table with a row for each outline: area, perimeter, axes, grey inside and outside, how sure it is.

@@ -62,3 +62,16 @@ pub(crate) fn soft(pixels: f64) -> Vec<u8> {
 pub(crate) fn byte(level: f64) -> u8 {
     level.round().clamp(0.0, 255.0) as u8
 }
+
+/// A bright disc in a grey picture, as PGM; without contrast nothing is found.
+pub(crate) fn small_disc(contrast: f64) -> Vec<u8> {
+    let mut text = b"P5\n64 48\n255\n".to_vec();
+    for y in 0..48 {
+        for x in 0..64 {
+            let inside = 12.5 - (f64::from(x) - 30.0).hypot(f64::from(y) - 24.0);
+            let level = 60.0 + contrast * inside.clamp(0.0, 1.0);
+            text.push(byte(level));
+        }
+    }
+    text
+}

@@ -2,8 +2,8 @@
 //!
 //! A sum over pairs takes two loads for three operations if each sum loads its own pair. But the pairs of neighbouring
 //! sums are made of the same vectors, one further on. So several neighbours are summed at a time: the vectors on one
-//! side stay in registers, where one comes in as one goes out, and those on the other side are operands in memory. That takes
-//! ten registers for four sums, eighteen for eight: more would be moved out and back in.
+//! side stay in registers, where one comes in as one goes out, and those on the other side are operands in memory. That
+//! takes ten registers for four sums, eighteen for eight: more would be moved out and back in.
 
 use super::vector::Lanes;
 

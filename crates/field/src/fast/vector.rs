@@ -24,11 +24,12 @@ pub(super) trait Lanes: Copy {
     fn abs(self, a: Self::V) -> Self::V;
     fn sqrt(self, a: Self::V) -> Self::V;
 
-    /// Rows become columns: lane c of vector r changes places with lane r of vector c, of as many vectors as each has numbers.
+    /// Rows become columns: lane c of vector r changes places with lane r of vector c, of as many vectors as each has
+    /// numbers.
     fn turn<const B: usize>(self, vectors: &mut [Self::V; B]);
 
-    /// The differences `d[0] − d[1]` and `d[2] − d[3]` as pairs past the cache, where there is a way to: 16 at a time, to
-    /// a multiple of 64 bytes.
+    /// The differences `d[0] − d[1]` and `d[2] − d[3]` as pairs past the cache, where there is a way to: 16 at a time,
+    /// to a multiple of 64 bytes.
     ///
     /// Says whether it was done; then [`Lanes::wait`] before anybody reads them.
     #[inline(always)]
@@ -153,7 +154,8 @@ impl<S: Simd> Lanes for Wide<S> {
     }
 }
 
-/// Writes 16 pairs to where they will not be read soon: a line of the cache that is written whole need not be read first.
+/// Writes 16 pairs to where they will not be read soon: a line of the cache that is written whole need not be read
+/// first.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 #[expect(

@@ -9,7 +9,8 @@
 //! The filter h is found from the transfer functions: T of the smoothing asked for (a Gaussian, or cos²ᵖ of so many
 //! passes), divided by that of both windows as they stand, sampled and cut. So all that is lost is what the
 //! thinning folds over: a wave of amplitude 1 is off by at most 1e-6, and a picture by far less, since most of it
-//! is no such wave. The sums are in `f32`, in parts of 16 terms, which adds a few of its roundings. Beyond the border the lines are the image's mirror, as everywhere here.
+//! is no such wave. The sums are in `f32`, in parts of 16 terms, which adds a few of its roundings. Beyond the border
+//! the lines are the image's mirror, as everywhere here.
 
 use super::Smoothing;
 use crate::grid::mirrored;

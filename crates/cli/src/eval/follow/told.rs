@@ -6,8 +6,8 @@ use score::tracking::{Followed as Means, TrackScores};
 use serde_json::{Value, json};
 
 use super::run::{Followed, Score};
-use crate::eval::csv::quoted;
 use crate::eval::table::{mean, shown};
+use score::table::quoted;
 
 /// Columns of one object: name, width, decimals.
 const ONE: [(&str, usize, usize); 9] = [
